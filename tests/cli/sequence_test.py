@@ -39,6 +39,25 @@ class Sequences(ProgramTest):
         self.render("--set", "lean=90", "-o", "one.png")
         self.assertEqual(self.bytes_of("one.png"), self.bytes_of("turned_0003.png"))
 
+    def test_shutter(self):
+        """Light that grows from 0 to 1 while the shutter is open is half of it; what moves is another picture."""
+        self.write("disc.yaml", """lekalo: 1
+parameters: { way: 0, bright: 1 }
+geometry: { disc: { type: plane, size: [2, 2], origin: [way, 0, 0] } }
+objects: [{ shape: disc, material: { type: emission, strength: bright } }]
+camera: { type: parallel, from: [0, 0, 5], at: [0, 0, 0], height: 4 }
+image: { size: [20, 20], samples: 16, background: black }
+""")
+        self.run_program("render", "disc.yaml", "--shutter", "bright=0..1:3", "-o", "mean.exr", "--quiet")
+        self.run_program("render", "disc.yaml", "--set", "bright=0.5", "-o", "half.exr", "--quiet")
+        self.run_program("compare", "mean.exr", "half.exr", "--metric", "max", "--threshold", "1e-6")
+        self.run_program("render", "disc.yaml", "--shutter", "way=-0.5..0.5:16", "-o", "moved.exr", "--quiet")
+        self.run_program("compare", "moved.exr", "half.exr", "--metric", "max", "--threshold", "1e-6", code=1)
+        said = self.run_program("render", "disc.yaml", "--shutter", "way=1", "-o", "no.exr", "--quiet", code=USAGE)[1]
+        self.assertIn("--shutter takes NAME=A..B:N", said)
+        said = self.run_program("render", "disc.yaml", "--shutter", "weg=0..1:2", "-o", "no.exr", "--quiet", code=SCENE_ERROR)[1]
+        self.assertIn("--shutter weg=0..1:2: the scene has no parameter 'weg'", said)
+
     def test_interrupted_frames_go_on_as_told(self):
         """The change of the command that the message tells, typed in a shell: the frame ends in the same bits."""
         self.write("ring.yaml", SCENE.replace("size: [32, 24], samples: 1", "size: [32, 24], samples: 300"))

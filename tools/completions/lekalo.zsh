@@ -52,6 +52,7 @@ case $command in
       '--skip-existing[leave out pictures that are there already, and go on with those that were begun]' \
       '--tile[part I of N of the picture, kept for '\''lekalo merge'\'']:I/N: ' \
       '--progress[progress as lines for other programs]' \
+      '--shutter[motion blur\: the mean of N pictures while a parameter runs from A to B, the samples shared among them]:NAME=A..B\:N: ' \
       '--watch[again when the scene or a file that it reads changes, until Ctrl-C]' \
       '*--resume[continue from a .partial file]:FILE:_files' \
       '--stamp[put date, machine and the scene'\''s path into the pictures]' \
@@ -77,6 +78,7 @@ case $command in
       '--skip-existing[leave out pictures that are there already, and go on with those that were begun]' \
       '--tile[part I of N of the picture, kept for '\''lekalo merge'\'']:I/N: ' \
       '--progress[progress as lines for other programs]' \
+      '--shutter[motion blur\: the mean of N pictures while a parameter runs from A to B, the samples shared among them]:NAME=A..B\:N: ' \
       '--watch[again when the scene or a file that it reads changes, until Ctrl-C]' \
       '*--resume[continue from a .partial file]:FILE:_files' \
       '--stamp[put date, machine and the scene'\''s path into the pictures]' \

@@ -15,31 +15,32 @@ namespace {
 
 constexpr int kMaxFrames = 1000000;
 
-void check_formula(const std::string& text, const std::string& option) {
+void check_formula(const std::string& text, const std::string& written) {
   auto parsed = geometry::Expression::parse(text);
   if (const auto* error = std::get_if<geometry::ExpressionError>(&parsed))
-    throw UsageError(fmt::format("--frames {}: '{}': {}", option, text, error->message));
+    throw UsageError(fmt::format("{}: '{}': {}", written, text, error->message));
 }
 
 }  // namespace
 
-std::vector<Frame> parse_frames(const std::string& text) {
+std::vector<Frame> parse_frames(const std::string& text, const std::string& option) {
   if (text.empty()) return {{}};
+  const std::string written = option + " " + text;
   const size_t equals = text.find('='), dots = text.find("..", equals == std::string::npos ? 0 : equals),
                colon = text.rfind(':');
   if (equals == std::string::npos || equals == 0 || dots == std::string::npos || colon == std::string::npos ||
       colon < dots + 3 || dots == equals + 1)
-    throw UsageError(fmt::format("--frames takes NAME=A..B:N, for example tube=0.1..0.5:12, found '{}'", text));
+    throw UsageError(fmt::format("{} takes NAME=A..B:N, for example tube=0.1..0.5:12, found '{}'", option, text));
   const std::string name = text.substr(0, equals), first = text.substr(equals + 1, dots - equals - 1),
                     last = text.substr(dots + 2, colon - dots - 2);
   int count = 0;
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data() + colon + 1, end, count);
   if (error != std::errc() || rest != end || count < 1 || count > kMaxFrames)
-    throw UsageError(fmt::format("--frames {}: the number of frames, '{}', is no whole number between 1 and {}", text,
+    throw UsageError(fmt::format("{}: the number of frames, '{}', is no whole number between 1 and {}", written,
                                  text.substr(colon + 1), kMaxFrames));
-  check_formula(first, text);
-  check_formula(last, text);
+  check_formula(first, written);
+  check_formula(last, written);
   const int digits = std::max(4, static_cast<int>(std::to_string(count).size()));
   std::vector<Frame> frames;
   for (int i = 0; i < count; ++i) {
@@ -47,7 +48,7 @@ std::vector<Frame> parse_frames(const std::string& text) {
                         : i == count - 1 ? last
                                          : fmt::format("({0}) + (({1}) - ({0}))*{2}/{3}", first, last, i, count - 1);
     frames.push_back(
-        {render::ParameterSetting{name, std::move(value), "--frames " + text}, fmt::format("_{:0{}}", i + 1, digits)});
+        {render::ParameterSetting{name, std::move(value), written}, fmt::format("_{:0{}}", i + 1, digits)});
   }
   return frames;
 }

@@ -15,8 +15,8 @@ struct Frame {
 };
 
 // The frames of NAME=A..B:N, N values from A to B, both included; A and B are formulas and may be angles. Without a
-// text the one frame of the scene as it is. Throws UsageError.
-std::vector<Frame> parse_frames(const std::string& text);
+// text the one frame of the scene as it is. `option` is what it was given to. Throws UsageError.
+std::vector<Frame> parse_frames(const std::string& text, const std::string& option);
 
 // Those that "9-16,20" names by their numbers, from 1; all for an empty text. Throws UsageError.
 std::vector<Frame> chosen_frames(const std::vector<Frame>& frames, const std::string& numbers);

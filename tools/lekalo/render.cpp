@@ -101,6 +101,7 @@ std::vector<OutputFile> chosen_outputs(const Options& options, const Model& mode
 // What one run of the command keeps while it goes through frames and changes of the scene.
 struct Run {
   const Options& options;
+  std::vector<Frame> instants;  // while the shutter is open: one, or several of a parameter
   std::optional<FileWatch> watch;
   bool restart = false;  // a file changed while its picture was made
 };
@@ -115,10 +116,11 @@ PictureOverrides overrides_of(const Options& options) {
   return overrides;
 }
 
-render::LoadedScene load(Run& run, const Frame& frame) {
+render::LoadedScene load(Run& run, const Frame& frame, const Frame& instant) {
   std::vector<std::filesystem::path> files;
   render::LoadOptions load = run.options.scene.load_options();
-  if (frame.setting) load.set_parameters.push_back(*frame.setting);
+  for (const auto& setting : {frame.setting, instant.setting})
+    if (setting) load.set_parameters.push_back(*setting);
   load.files_read = &files;
   const auto watch = [&] {
     if (run.watch) run.watch->include(files);
@@ -151,6 +153,49 @@ render::RenderResult render_watched(Run& run, const render::World& world, const 
   std::jthread watching;
   if (run.watch) watching = std::jthread([&](const std::stop_token& ended) { stop_at_change(run, ended); });
   return render::render(world, settings);
+}
+
+bool is_light(const render::Channel& channel) {
+  return channel.name.size() == 1 ? channel.name != "Z" : channel.name.starts_with("direct.");
+}
+
+// Adds the light of a picture to `sum`; what else its layers hold takes the place of that there where `takes_data`.
+void add_light(render::Image& sum, const render::Image& picture, bool takes_data) {
+  for (size_t c = 0; c < sum.channels.size(); ++c) {
+    render::Channel& to = sum.channels[c];
+    const render::Channel& from = picture.channels[c];
+    if (is_light(to))
+      for (size_t i = 0; i < to.values.size(); ++i) to.values[i] += from.values[i];
+    else if (takes_data)
+      to = from;
+  }
+}
+
+// Makes of the picture of the first instant the mean of those of all: what moves is blurred, by as many places as there
+// are instants. Layers that are no light are those of the instant in the middle.
+void blur(Run& run, const Frame& frame, const Model& first, const render::RenderOptions& settings,
+          render::RenderResult& result) {
+  const size_t count = run.instants.size();
+  for (size_t k = 1; k < count && result.complete && !run.restart; ++k) {
+    const render::LoadedScene scene = load(run, frame, run.instants[k]);
+    apply(overrides_of(run.options), *scene.model);
+    scene.model->make_camera = nullptr;
+    scene.model->film = first.film;
+    scene.model->film.seed += static_cast<uint32_t>(k);
+    const render::World world(scene.model, render::keeps_layer(scene.model->film, "uv"));
+    const render::RenderResult next = render_watched(run, world, settings);
+    result.complete = result.complete && next.complete;
+    result.not_finite += next.not_finite;
+    result.seconds += next.seconds;
+    result.camera_rays += next.camera_rays;
+    result.shadow_rays += next.shadow_rays;
+    result.other_rays += next.other_rays;
+    add_light(result.image, next.image, k == count / 2);
+  }
+  if (!result.complete) return;
+  for (render::Channel& channel : result.image.channels)
+    if (is_light(channel))
+      for (size_t i = 0; i < channel.values.size(); ++i) channel.values[i] /= static_cast<float>(count);
 }
 
 // No ray of the camera met anything, and there is no background but what is transparent.
@@ -190,7 +235,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   const Options& options = run.options;
   const auto begin = std::chrono::steady_clock::now();
   std::optional<Building> until_traced(std::in_place);
-  const render::LoadedScene scene = load(run, frame);
+  const render::LoadedScene scene = load(run, frame, run.instants.front());
   const std::shared_ptr<Model> model = scene.model;
   apply(overrides_of(options), *model);
   if (first && (!options.quiet || options.stats)) print_external_notes(scene, options.stats);
@@ -244,6 +289,8 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   // Only OpenEXR files have room for more than colour.
   if (std::none_of(outputs.begin(), outputs.end(), [](const OutputFile& f) { return f.path.ends_with(".exr"); }))
     model->film.layers = {"color"};
+  const auto instants = static_cast<int>(run.instants.size());
+  model->film.samples = (model->film.samples + instants - 1) / instants;
 
   const render::World world(model, render::keeps_layer(model->film, "uv"));
   const double built = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -255,7 +302,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   settings.stop = &stop_tracing;
   settings.progress = [&](double done, uint64_t rays) { progress(done, rays); };
   settings.identity = scene.hash;
-  settings.partial_file = partial;
+  if (instants == 1) settings.partial_file = partial;
   settings.warning = [](const std::string& reason) {
     fmt::print(stderr, "warning: what is done cannot be kept for --resume: {}\n", reason);
   };
@@ -265,6 +312,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
       job_of(options, frame, {written.begin(), written.begin() + static_cast<std::ptrdiff_t>(outputs.size())},
              model->film.layers);
   render::RenderResult result = render_watched(run, world, settings);
+  if (instants > 1) blur(run, frame, *model, settings, result);
   progress.end();
   if (run.restart && !result.complete && !interrupted) {
     std::error_code ignored;
@@ -289,6 +337,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   if (result.not_finite > 0)
     fmt::print(stderr, "warning: {} samples were not finite and were left out\n", result.not_finite);
   if (options.stats) print_statistics(world.statistics(), result, built);
+  if (!result.complete && instants > 1) return kInterrupted;           // nothing is kept of it
   if ((!result.complete || part) && !result.saved) return kFileError;  // the warning has said why
   if (part && result.part_complete) {
     if (!options.quiet) fmt::print(stderr, "{}\n", partial);
@@ -359,6 +408,10 @@ void add_options(CLI::App& sub, const std::shared_ptr<Options>& options) {
                "leave out pictures that are there already, and go on with those that were begun");
   sub.add_option("--tile", options->tile, "part I of N of the picture, kept for 'lekalo merge'")->type_name("I/N");
   sub.add_flag("--progress", options->progress, "progress as lines for other programs");
+  sub.add_option(
+         "--shutter", options->shutter,
+         "motion blur: the mean of N pictures while a parameter runs from A to B, the samples shared among them")
+      ->type_name("NAME=A..B:N");
   sub.add_flag("--watch", options->watch, "again when the scene or a file that it reads changes, until Ctrl-C");
   sub.add_option("--resume", options->resume, "continue from a .partial file")->type_name("FILE");
   sub.add_flag("--stamp", options->stamp, "put date, machine and the scene's path into the pictures");
@@ -369,9 +422,11 @@ void add_options(CLI::App& sub, const std::shared_ptr<Options>& options) {
 }  // namespace
 
 int make_pictures(const RenderCommand& command) {
-  const std::vector<Frame> frames = chosen_frames(parse_frames(command.frames), command.only);
+  const std::vector<Frame> frames = chosen_frames(parse_frames(command.frames, "--frames"), command.only);
   if (!command.resume.empty() && (!command.frames.empty() || command.watch))
     throw UsageError("--resume continues one picture: it does not go with --frames or --watch");
+  if (!command.shutter.empty() && (!command.resume.empty() || !command.tile.empty()))
+    throw UsageError("--shutter does not go with --resume or --tile: nothing is kept of pictures that are not done");
   if (command.watch && (!command.tile.empty() || command.skip_existing))
     throw UsageError("--watch makes pictures again and again: it does not go with --tile or --skip-existing");
   command.engine.apply();
@@ -379,7 +434,7 @@ int make_pictures(const RenderCommand& command) {
   action.sa_handler = interrupt;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  Run run{command, {}};
+  Run run{command, parse_frames(command.shutter, "--shutter"), {}};
   return command.watch ? render_and_watch(run, frames) : render_frames(run, frames);
 }
 
@@ -390,6 +445,7 @@ void add_render(CLI::App& app, Action& action) {
       "  lekalo render scenes/primer/teapot.yaml\n"
       "  lekalo render ring.yaml --set r=0.3 --size 1920x1080 --samples 256 -o ring.exr -o ring.png\n"
       "  lekalo render ring.yaml --frames tube=0.1..0.5:24     (ring_0001.png to ring_0024.png)\n"
+      "  lekalo render wheel.yaml --shutter turn=0..30:64      (blurred by its motion)\n"
       "  lekalo render ring.yaml --watch                       (again whenever the scene changes)\n"
       "Without -o the scene's own outputs are written, or SCENE.png.");
   auto options = std::make_shared<Options>();

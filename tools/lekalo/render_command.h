@@ -16,7 +16,7 @@ struct RenderCommand {
   SceneOptions scene;
   EngineOptions engine;
   std::vector<std::string> outputs;
-  std::string size, crop, frames;
+  std::string size, crop, frames, shutter;
   std::string only;  // numbers of frames, "9-16,20"; empty: all
   std::string tile;  // "3/8"; empty: the whole picture
   std::vector<std::string> resume;
