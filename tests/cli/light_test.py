@@ -78,6 +78,36 @@ image: {{ size: [96, 96], samples: 4, background: white }}
         self.write("lamp.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 2 1 1 2 0 0 0\n1 1 50\n0 90\n0\n100\n")
         self.assertIn("the file ends after", self.complaint(light=lamp))
 
+    def test_studios(self):
+        """Each set-up of the studio lights a scene in both integrators: neither black nor burnt out."""
+        for studio in "softbox", "technical", "outdoor":
+            for integrator in "classic", "path":
+                with self.subTest(studio, integrator=integrator):
+                    self.write("scene.yaml", f"""lekalo: 1
+include: studio/{studio}.yaml
+geometry: {{ block: {{ type: box, size: [1, 1, 1], center: [0, 0, 0.5] }} }}
+objects: [{{ shape: block, material: {{ type: diffuse, color: 0.5 }} }}]
+integrator: {{ type: {integrator} }}
+camera: {{ type: perspective, from: [2, -5, 4], at: [0, 0, 0.5], field_of_view: 5 }}
+image: {{ size: [8, 8], samples: 16, background: black }}
+""")
+                    self.write("grey.yaml", (self.folder / "scene.yaml").read_text().replace("diffuse, color: 0.5", "emission, color: 0.4"))
+                    for name in "scene", "grey":
+                        self.run_program("render", f"{name}.yaml", "-o", f"{name}.exr", "--quiet")
+                    self.run_program("compare", "scene.exr", "grey.exr", "--metric", "max", "--threshold", "0.37")
+        for integrator in "classic", "path":  # paper: nothing where no shadow lies
+            with self.subTest("paper", integrator=integrator):
+                self.write("scene.yaml", f"""lekalo: 1
+include: [studio/softbox.yaml, studio/paper.yaml]
+integrator: {{ type: {integrator} }}
+camera: {{ type: perspective, from: [2, -5, 4], at: [0, 0, 0], field_of_view: 25 }}
+image: {{ size: [8, 8], samples: 4, background: [0.3, 0.5, 0.7] }}
+""")
+                self.write("bare.yaml", (self.folder / "scene.yaml").read_text().replace(", studio/paper.yaml", ""))
+                for name in "scene", "bare":
+                    self.run_program("render", f"{name}.yaml", "-o", f"{name}.exr", "--layers", "color", "--quiet")
+                self.run_program("compare", "scene.exr", "bare.exr", "--metric", "max", "--threshold", "1e-5")
+
     def test_materials(self):
         self.assertIn("one of 'metal' and 'color'", self.complaint(other="{ type: conductor }"))
         self.assertIn("one of 'metal' and 'color'", self.complaint(other="{ type: conductor, metal: Cu, color: 0.5 }"))
