@@ -216,7 +216,7 @@ TEST(Noise, ResumedPictureIsTheSameBits) {
   options.progress = [&](double, uint64_t) { stop = ++calls == 1; };
   RenderResult part = render(*drawn, options);
   EXPECT_FALSE(part.complete);
-  options.resume_file = file;
+  options.resume_files = {file};
   options.progress = nullptr;
   stop = false;
   part = render(*drawn, options);
