@@ -287,6 +287,21 @@ Vec2 point_inside(const std::vector<DirectedCurve>& curves, const PlaneRegion& r
       // Polygons of neighbouring curves may cross where these do not.
     }
   }
+  // Beside a cusp polygons always cross: a step to the left of a curve, as long as can be.
+  double size = 0;
+  for (const int k : region.loops.front()) size = std::max(size, bounds(*curves[k].image).diameter());
+  for (double step = 0.25 * size; step > 1e-6 * size; step *= 0.5)
+    for (const std::vector<int>& loop : region.loops)
+      for (const int k : loop)
+        for (const double part : {0.5, 0.3, 0.7}) {
+          const Interval t = curves[k].image->domain();
+          const CurveJet at = curves[k].image->evaluate(t.lo + part * t.width(), 1);
+          const Vec2 along = (curves[k].forward ? 1.0 : -1.0) * Vec2(at.d[1]);
+          const double speed = glm::length(along);
+          if (!(speed > 0)) continue;
+          const Vec2 left(-along.y / speed, along.x / speed), p = Vec2(at.d[0]) + step * left;
+          if (trim.contains(p.x, p.y) && trim.contains(p.x + 0.5 * step * left.x, p.y + 0.5 * step * left.y)) return p;
+        }
   throw std::invalid_argument("no point is found inside of a region of a face");
 }
 

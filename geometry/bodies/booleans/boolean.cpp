@@ -11,6 +11,7 @@
 #include "geometry/bodies/booleans/coincidence.h"
 #include "geometry/bodies/booleans/gluing.h"
 #include "geometry/bodies/booleans/imprint.h"
+#include "geometry/bodies/booleans/merging.h"
 #include "geometry/queries/closest/position.h"
 #include "geometry/queries/rays/line_intersections.h"
 
@@ -51,6 +52,7 @@ class Boolean {
       classify(side);
       for (size_t f = 0; f < bodies_[side]->faces.size(); ++f) add_pieces(side, static_cast<int>(f), pieces);
     }
+    merge_pieces(pieces, imprint_);
     if (pieces.empty()) throw BooleanError("nothing is left", bounds(*bodies_[0]).center(), true);
     Body result = glued(pieces, imprint_);
     if (const auto wrong = result.violations(); !wrong.empty())

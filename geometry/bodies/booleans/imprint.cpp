@@ -189,7 +189,6 @@ class Imprinting {
       const Box3 shared = common(faces_[0][f].box, faces_[1][g].box);
       const double reach = std::max(faces_[0][f].box.diameter(), faces_[1][g].box.diameter());
       const auto same = have_same_equation(face(0, f).surface, face(1, g).surface, shared.center(), reach, tolerance_);
-      known_[{f, g}] = same.has_value();
       if (same.value_or(false)) set_coincident(f, g);
     });
   }
@@ -206,6 +205,11 @@ class Imprinting {
       for (size_t f = 0; f < faces_[other].size(); ++f) {
         const FaceData& on = faces_[other][f];
         if (!boxes_meet(edge.near->box(), on.box, tolerance_)) continue;
+        if (lies_on_same_equation(side, static_cast<int>(e), static_cast<int>(f))) {
+          edge.on_faces.push_back({static_cast<int>(f), curve->domain()});
+          meet_border(side, static_cast<int>(e), static_cast<int>(f));
+          continue;
+        }
         const SurfaceIntersections found = intersect(*curve, *on.support);
         for (const SurfaceIntersection& hit : found.points)
           if (in_region(other, static_cast<int>(f), {hit.u, hit.v}, kOnBorder))
@@ -219,6 +223,15 @@ class Imprinting {
         }
       }
     }
+  }
+
+  // An edge of a face that coincides with that of the other body lies on it.
+  bool lies_on_same_equation(int side, int e, int f) const {
+    for (const int c : body(side).edges[e].coedges) {
+      const int own = body(side).loops[body(side).coedges[c].loop].face;
+      if (is_coincident(side == 0 ? own : f, side == 0 ? f : own)) return true;
+    }
+    return false;
   }
 
   // An edge that lies on a face's surface meets the face's edges there.
@@ -262,7 +275,9 @@ class Imprinting {
         if (in_region(0, f, {at[0], at[1]}, kOnBorder) && in_region(1, g, {at[2], at[3]}, kOnBorder))
           point(singular.point);
       }
-      for (const Contour& contour : found.branches) contours_.push_back({f, g, contour});
+      // Where surfaces only touch neither goes on inside of the other.
+      for (const Contour& contour : found.branches)
+        if (contour.kind == ContourKind::crossing) contours_.push_back({f, g, contour});
     });
   }
 
@@ -475,6 +490,11 @@ class Imprinting {
     const auto in_f = in_region(0, f, Vec2(images[0]->point(middle)), kOnBorder),
                in_g = in_region(1, g, Vec2(images[1]->point(middle)), kOnBorder);
     if (!in_f || !in_g) return;
+    if (const auto edge = edge_through(f, g, curve->point(middle))) {
+      add_known(0, f, *edge);
+      add_known(1, g, *edge);
+      return;
+    }
     if (begin.point < 0) begin.point = point(curve->point(begin.t));
     if (end.point < 0) end.point = point(curve->point(end.t));
     Strand strand;
@@ -491,6 +511,21 @@ class Imprinting {
                          add_inner(1, g, index, simple_image(*face(1, g).surface, part_of(images[1], t)));
     if (!in_both)
       throw BooleanError("a curve of intersection runs along the border of a face but not on it", curve->point(middle));
+  }
+
+  // The part of an edge, on the border or inside of either face, that a point lies on.
+  std::optional<int> edge_through(int f, int g, const Vec3& p) {
+    std::set<int> candidates = strands_of_border(0, f);
+    candidates.merge(strands_of_border(1, g));
+    candidates.insert(faces_[0][f].inner.begin(), faces_[0][f].inner.end());
+    candidates.insert(faces_[1][g].inner.begin(), faces_[1][g].inner.end());
+    for (const int k : candidates) {
+      const Strand& strand = imprint_.strands[k];
+      if (strand.kind == EdgeKind::pole || (strand.edge[0] < 0 && strand.edge[1] < 0)) continue;
+      if (!near_[k]) near_[k] = std::make_shared<NearCurve>(strand.curve);
+      if (near_[k]->place_of(p, 4 * tolerance_)) return k;
+    }
+    return std::nullopt;
   }
 
   // A curve of intersection that is a known edge.
@@ -561,7 +596,6 @@ class Imprinting {
   std::array<std::vector<EdgeData>, 2> edges_;
   std::array<std::vector<FaceData>, 2> faces_;
   std::set<std::pair<int, int>> coincident_;
-  std::map<std::pair<int, int>, bool> known_;
   std::set<std::array<int, 3>> met_;
   std::vector<FacesContour> contours_;
   std::map<std::pair<int, int>, std::vector<int>> by_ends_;

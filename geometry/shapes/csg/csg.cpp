@@ -79,7 +79,13 @@ class GrowingRoom {
 
 }  // namespace
 
-Csg::Csg(Operation operation, const std::vector<ShapePtr>& operands) : operands_(operands) {
+BodyPtr Csg::boundary(const std::function<BodyPtr(const Csg&)>& make) const {
+  std::call_once(boundary_made_, [&] { boundary_ = make(*this); });
+  return boundary_;
+}
+
+Csg::Csg(Operation operation, const std::vector<ShapePtr>& operands, std::vector<std::string> names)
+    : operands_(operands), names_(std::move(names)) {
   if (operands.empty()) throw std::invalid_argument("there is nothing to combine");
   nodes_.emplace_back().operation = operation;
   for (size_t k = 0; k < operands.size(); ++k) {
@@ -469,12 +475,22 @@ ShapePtr operand(const std::any& thing, const std::string& field) {
   return shape;
 }
 
-ShapePtr combined(Csg::Operation operation, const std::vector<ShapePtr>& operands, const std::string& field) {
+ShapePtr combined(Csg::Operation operation, const std::vector<ShapePtr>& operands, std::vector<std::string> names,
+                  const std::string& field) {
   try {
-    return std::make_shared<Csg>(operation, operands);
+    return std::make_shared<Csg>(operation, operands, std::move(names));
   } catch (const std::invalid_argument& error) {
     throw FieldError(field, error.what(), "move them, so that they overlap");
   }
+}
+
+// What operands are called: as in the scene, else by the field and their number there.
+void add_names(const Fields& f, const std::string& field, size_t count, std::vector<std::string>& names) {
+  std::vector<std::string> given(count);
+  if (f.has(field + ".names")) given = f.get<std::vector<std::string>>(field + ".names");
+  given.resize(count);
+  for (size_t k = 0; k < count; ++k)
+    names.push_back(!given[k].empty() ? given[k] : count == 1 ? field : fmt::format("{}.{}", field, k));
 }
 
 const std::vector<Category> kSolids{Category::body, Category::shape, Category::surface};
@@ -487,7 +503,9 @@ TypeDeclaration of_several(const std::string& name, const std::string& descripti
       .built_by([operation](const Fields& f) -> ShapePtr {
         std::vector<ShapePtr> operands;
         for (const std::any& one : f.references("of")) operands.push_back(operand(one, "of"));
-        return combined(operation, operands, "of");
+        std::vector<std::string> names;
+        add_names(f, "of", operands.size(), names);
+        return combined(operation, operands, std::move(names), "of");
       });
 }
 
@@ -509,7 +527,10 @@ TypeDeclaration difference_type() {
       .built_by([](const Fields& f) -> ShapePtr {
         std::vector<ShapePtr> operands{operand(f.any("of"), "of")};
         for (const std::any& one : f.references("minus")) operands.push_back(operand(one, "minus"));
-        return combined(Csg::Operation::subtract, operands, "minus");
+        std::vector<std::string> names;
+        add_names(f, "of", 1, names);
+        add_names(f, "minus", operands.size() - 1, names);
+        return combined(Csg::Operation::subtract, operands, std::move(names), "minus");
       });
 }
 

@@ -11,8 +11,12 @@
 // in A minus B a shared face vanishes; two bodies that touch from outside unite without a wall between them.
 #pragma once
 
+#include <functional>
+#include <mutex>
 #include <optional>
+#include <string>
 
+#include "geometry/body.h"
 #include "geometry/shape.h"
 #include "geometry/shapes/csg/convex_solid.h"
 #include "geometry/spatial/box_tree.h"
@@ -29,10 +33,14 @@ class Csg final : public Shape {
   // The operands, at least one, must be closed; subtract takes all others from the first. Throws std::invalid_argument
   // for an open operand, for more than kMaxLeaves, and where nothing can be left since the operands' boxes do not
   // meet.
-  Csg(Operation operation, const std::vector<ShapePtr>& operands);
+  // `names`: what the operands are called in the names of the result's faces; none, or one for each.
+  Csg(Operation operation, const std::vector<ShapePtr>& operands, std::vector<std::string> names = {});
 
   Operation operation() const { return nodes_[0].operation; }
   const std::vector<ShapePtr>& operands() const { return operands_; }
+  const std::vector<std::string>& names() const { return names_; }
+  // The same solid by its faces: made at the first question (bodies/booleans/solid_boundary.h) and kept.
+  BodyPtr boundary(const std::function<BodyPtr(const Csg&)>& make) const;
   // Of the whole tree: operands that are no operations themselves.
   int leaf_count() const { return static_cast<int>(leaves_.size()); }
 
@@ -101,6 +109,9 @@ class Csg final : public Shape {
   void walk(const Line& line, const Interval& t, Visit&& visit) const;
 
   std::vector<ShapePtr> operands_;
+  std::vector<std::string> names_;
+  mutable std::once_flag boundary_made_;
+  mutable BodyPtr boundary_;
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;
   std::vector<int> outside_;  // how many operands count, by node, where all leaves are outside

@@ -1,0 +1,93 @@
+#include "geometry/bodies/booleans/solid_boundary.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "geometry/bodies/booleans/boolean.h"
+#include "geometry/bodies/primitives/primitives.h"
+#include "geometry/shapes/csg/body_shape.h"
+#include "geometry/shapes/csg/csg.h"
+#include "geometry/shapes/csg/half_space.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+BodyPtr made(const Csg& solid);
+
+// A half-space as far as what is within the box can tell: a box on its plane.
+Body block_behind(const Frame& plane, const Affine& map, const Box3& box) {
+  const Vec3 normal = glm::normalize(map.normal(plane.z));
+  const Frame frame = frame_about(map.point(plane.origin), normal);
+  const double reach = 1.618 * box.diameter();
+  const Vec3 center = frame.to_local_point(box.center());
+  Frame corner = frame;
+  const double depth = reach - std::min(0.0, center.z) + std::abs(center.z);
+  corner.origin = frame.point({center.x - reach, center.y - reach, -depth});
+  return box.bounded() ? geometry::box(corner, {2 * reach, 2 * reach, depth}) : Body();
+}
+
+BodyPtr body_of(const ShapePtr& shape, const Affine& map, const Box3& within) {
+  if (const auto* body = dynamic_cast<const BodyShape*>(shape.get()))
+    return std::make_shared<Body>(transformed(*body->body(), map));
+  if (const auto* moved = dynamic_cast<const TransformedShape*>(shape.get()))
+    return body_of(moved->original(), map * moved->map(), within);
+  if (const auto* solid = dynamic_cast<const Csg*>(shape.get()))
+    return std::make_shared<Body>(transformed(*solid->boundary(made), map));
+  if (const auto* half = dynamic_cast<const HalfSpaceShape*>(shape.get())) {
+    if (!within.bounded() || within.empty())
+      throw std::invalid_argument("a half-space without anything bounded beside it has no boundary");
+    Body block = block_behind(half->frame(), map, within);
+    for (Face& face : block.faces) face.origin = {"", "plane"};
+    return std::make_shared<Body>(std::move(block));
+  }
+  throw std::invalid_argument("one of its parts is met by rays only and has no faces");
+}
+
+// The operand's name goes before the names that its faces have.
+void name_faces(Body& body, const std::string& name) {
+  const auto prefix = [&](Origin& origin) {
+    origin.feature = origin.feature.empty() ? name : name + "." + origin.feature;
+  };
+  for (Face& face : body.faces) prefix(face.origin);
+}
+
+BodyPtr made(const Csg& solid) {
+  Box3 all;
+  for (const ShapePtr& operand : solid.operands())
+    if (const Box3 box = operand->bounds(); box.bounded()) all.include(box);
+  if (all.empty()) all = solid.bounds();
+  if (solid.operation() == Csg::Operation::unite && !solid.bounds().bounded())
+    throw std::invalid_argument("it is unbounded");
+  Body result;
+  for (size_t k = 0; k < solid.operands().size(); ++k) {
+    Body operand = *body_of(solid.operands()[k], Affine(), all);
+    if (k < solid.names().size()) name_faces(operand, solid.names()[k]);
+    if (k == 0) {
+      result = std::move(operand);
+      continue;
+    }
+    const BooleanOperation operation = solid.operation() == Csg::Operation::unite       ? BooleanOperation::unite
+                                       : solid.operation() == Csg::Operation::intersect ? BooleanOperation::intersect
+                                                                                        : BooleanOperation::subtract;
+    result = boolean(operation, result, operand);
+  }
+  return std::make_shared<Body>(std::move(result));
+}
+
+}  // namespace
+
+bool has_boundary(const Shape& shape) {
+  if (dynamic_cast<const BodyShape*>(&shape) || dynamic_cast<const HalfSpaceShape*>(&shape)) return true;
+  if (const auto* moved = dynamic_cast<const TransformedShape*>(&shape)) return has_boundary(*moved->original());
+  const auto* solid = dynamic_cast<const Csg*>(&shape);
+  return solid && solid->bounds().bounded() &&
+         std::all_of(solid->operands().begin(), solid->operands().end(),
+                     [](const ShapePtr& operand) { return has_boundary(*operand); });
+}
+
+BodyPtr boundary_of(const ShapePtr& shape) { return body_of(shape, Affine(), shape->bounds()); }
+
+bool makes_boundary(std::string_view type) { return type == "union" || type == "intersection" || type == "difference"; }
+
+}  // namespace lekalo::geometry

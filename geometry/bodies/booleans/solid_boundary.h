@@ -1,0 +1,21 @@
+// The boundaries of solids that are put together (shapes/csg.h): the same solid as a body.
+#pragma once
+
+#include <string_view>
+
+#include "geometry/body.h"
+#include "geometry/shape.h"
+
+namespace lekalo::geometry {
+
+// Whether a solid is put together of bodies and half-spaces only, so that it has a boundary that can be made.
+bool has_boundary(const Shape& shape);
+
+// Made at the first question and kept with the solid; faces are named by their operand. Throws BooleanError,
+// std::invalid_argument where has_boundary() is false or an unbounded half-space is left.
+BodyPtr boundary_of(const ShapePtr& shape);
+
+// Types of scenes that make such solids.
+bool makes_boundary(std::string_view type);
+
+}  // namespace lekalo::geometry
