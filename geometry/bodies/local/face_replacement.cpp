@@ -161,7 +161,7 @@ class Replacing {
     const Edge& old = old_.edges[e];
     const int a = old.coedges[0], b = old.coedges[1];
     if (new_.carrier(e) >= 0)
-      if (auto edge = carried_edge(e, from, to)) return *edge;
+      if (auto edge = new_.carried_edge(e, from, to)) return *edge;
     std::vector<Vec3> guide;
     const Interval t = old.curve->domain();
     for (int k = 0; k <= kGuide; ++k) guide.push_back(old.curve->point(t.lo + t.width() * k / kGuide));
@@ -177,38 +177,6 @@ class Replacing {
                      fmt::format("the faces {} and {} do not meet along an edge any more{}",
                                  name_of_face(old_, face_of(a)), name_of_face(old_, face_of(b)), why),
                      "a smaller change, or one of the neighbours too");
-  }
-
-  // Along the image that the edge has, or the straight line of the parameter plane between its new ends.
-  std::optional<EdgeCurve> carried_edge(int e, const Vec3& from, const Vec3& to) const {
-    const Edge& old = old_.edges[e];
-    const int a = new_.carrier(e), b = coedge_partner(old_, a);
-    const bool swapped = a != old.coedges[0];
-    std::optional<EdgeCurve> edge;
-    if (old_.edges[e].kind == EdgeKind::seam || is_line(*use(a).image))
-      edge = parameter_edge({new_.side_of(a), new_.side_of(b)}, from, to, size_);
-    if (!edge) {
-      const SurfacePtr& surface = new_.support(face_of(a));
-      const auto curve = std::make_shared<SurfaceCurve>(surface, use(a).image);
-      const Interval t = curve->domain();
-      if (glm::length(curve->point(t.lo) - from) > 1e-10 * size_ ||
-          glm::length(curve->point(t.hi) - to) > 1e-10 * size_)
-        return std::nullopt;
-      const int other = face_of(b);
-      edge = EdgeCurve{curve, {use(a).image, new_.plane(other) ? image_in(*new_.plane(other), curve) : use(b).image}};
-    }
-    if (swapped) std::swap(edge->images[0], edge->images[1]);
-    return edge;
-  }
-
-  static bool is_line(const Curve& image) {
-    const Interval t = image.domain();
-    const Vec3 a = image.point(t.lo), b = image.point(t.hi);
-    for (int k = 1; k < kGuide; ++k)
-      if (glm::length(image.point(t.lo + t.width() * k / kGuide) - (a + (b - a) * (double(k) / kGuide))) >
-          1e-12 * glm::length(b - a))
-        return false;
-    return true;
   }
 
   void note_turn(int e, const Curve& curve) {

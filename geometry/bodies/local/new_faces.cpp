@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/bodies/constructions/swept_body.h"
 #include "geometry/bodies/local/plane_seams.h"
+#include "geometry/curves/derived/reparametrized_curve.h"
+#include "geometry/curves/operations/surface_curve.h"
 #include "geometry/surfaces/analytic/plane.h"
 
 namespace lekalo::geometry {
@@ -14,6 +17,18 @@ namespace {
 
 // Normals that differ by less are those of a smooth edge.
 constexpr double kSmooth = 1e-6;
+
+constexpr int kSamples = 8;
+
+bool is_line(const Curve& image) {
+  const Interval t = image.domain();
+  const Vec3 a = image.point(t.lo), b = image.point(t.hi);
+  for (int k = 1; k < kSamples; ++k)
+    if (glm::length(image.point(t.lo + t.width() * k / kSamples) - (a + (b - a) * (double(k) / kSamples))) >
+        1e-12 * glm::length(b - a))
+      return false;
+  return true;
+}
 
 }  // namespace
 
@@ -155,6 +170,33 @@ CornerTree NewFaces::tree_of(const Corner& corner) const {
 EdgeSide NewFaces::side_of(int coedge) const {
   const int face = face_of(coedge);
   return {supports_[face], planes_[face], {near(coedge, false, false), near(coedge, true, false)}};
+}
+
+std::optional<EdgeCurve> NewFaces::carried_edge(int e, const Vec3& from, const Vec3& to) const {
+  const Edge& old = old_.edges[e];
+  const int a = carriers_[e], b = coedge_partner(old_, a);
+  const bool swapped = a != old.coedges[0];
+  std::optional<EdgeCurve> edge;
+  if (old_.edges[e].kind == EdgeKind::seam || is_line(*use(a).image))
+    edge = parameter_edge({side_of(a), side_of(b)}, from, to, size_);
+  if (!edge) {
+    const SurfacePtr& surface = supports_[face_of(a)];
+    const auto curve = std::make_shared<SurfaceCurve>(surface, use(a).image);
+    const Interval t = curve->domain();
+    if (glm::length(curve->point(t.lo) - from) > 1e-10 * size_ || glm::length(curve->point(t.hi) - to) > 1e-10 * size_)
+      return std::nullopt;
+    const int other = face_of(b);
+    std::array<Curve2Ptr, 2> images{use(a).image, use(b).image};
+    CurvePtr whole = curve;
+    if (const auto circle = even_circle(*curve, size_)) {
+      whole = circle;
+      for (Curve2Ptr& image : images) image = with_domain(image, circle->domain());
+    }
+    if (planes_[other]) images[1] = image_in(*planes_[other], whole);
+    edge = EdgeCurve{whole, images};
+  }
+  if (swapped) std::swap(edge->images[0], edge->images[1]);
+  return edge;
 }
 
 }  // namespace lekalo::geometry

@@ -38,6 +38,9 @@ class NewFaces {
 
   // Where the faces of a corner come together. Throws FieldError where they do not.
   CornerTree tree_of(const Corner& corner) const;
+  // An edge that has a carrier, between its new ends: along its image, or the straight line of the parameter plane
+  // where it was one. Nothing where the faces do not run along it.
+  std::optional<EdgeCurve> carried_edge(int edge, const Vec3& from, const Vec3& to) const;
 
  private:
   int face_of(int coedge) const { return face_of_coedge(old_, coedge); }

@@ -12,6 +12,7 @@
 
 #include "geometry/bodies/local/plane_polygons.h"
 #include "geometry/bodies/local/plane_seams.h"
+#include "geometry/bodies/local/round_offset.h"
 #include "geometry/bodies/local/untangled.h"
 
 namespace lekalo::geometry {
@@ -107,6 +108,14 @@ namespace {
 Body offset_body(const Fields& f) {
   const Body& body = *f.body("of");
   const std::vector<double> distances(body.faces.size(), f.number("distance"));
+  if (f.text("joints") == "round") {
+    if (!(f.number("distance") > 0))
+      throw FieldError("joints", "inside of a body joints are not round", "a positive distance, or joints: extended");
+    FaceReplacement made;
+    made.body = round_offset(body, f.number("distance"), "joints");
+    check_replacement(made, "joints", "joints: extended");
+    return std::move(made.body);
+  }
   return offset_of_body(body, distances, "distance", "a smaller distance").body;
 }
 
@@ -119,6 +128,10 @@ TypeDeclaration offset_body_type() {
       .example("of: { type: pyramid, points: [[-2, -1], [2, -1], [2, 1], [-2, 1]], height: 3 }, distance: 0.3")
       .field("of", reference({Category::body}), "the body; closed")
       .field("distance", length(), "along the outward normals; negative: to the inside")
+      .field("joints", choice({"extended", "round"}),
+             "what joins the faces: they are continued until they meet, or, outside of a convex body, what is at the "
+             "distance from its edges and vertices",
+             "extended")
       .built_by([](const Fields& f) -> BodyPtr { return std::make_shared<Body>(offset_body(f)); });
 }
 

@@ -1,6 +1,6 @@
-// Offsets that keep the parameters (Golovanov 2016, 6.7): plane to plane, cylinder and sphere R + d, a cone moved along
-// its axis by -d/sin(half-angle), a torus with the minor radius b + d; extrusion and revolution of c(u) to those of the
-// offset of c in its plane.
+// Offsets that keep the parameters (Golovanov 2016, 6.7): plane to plane, cylinder and sphere R + d, a cone with an
+// apex moved along its axis by -d/sin(half-angle), a torus with the minor radius b + d; extrusion and revolution of
+// c(u) to those of the offset of c in its plane.
 #include "geometry/bodies/local/support.h"
 
 #include "geometry/bodies/topology/selection.h"
@@ -56,6 +56,10 @@ Vec2 middle_of(const Rectangle& d) { return {d.u.middle(), d.v.middle()}; }
 SurfacePtr offset_cone(const ConeSurface& cone, double d) {
   const double w = cone.top_radius() - cone.radius(), h = cone.height();
   if (w == 0) return nullptr;
+  // Away from the apex points go along their normals.
+  const double by = d * h / std::hypot(w, h);
+  const auto is_clear = [&](double v) { return cone.radius() + w * v > 0 && cone.radius() + w * v + by > 0; };
+  if (is_clear(cone.domain().v.lo) && is_clear(cone.domain().v.hi)) return nullptr;
   Frame frame = cone.frame();
   frame.origin -= d * std::hypot(w, h) / w * frame.z;
   return std::make_shared<ConeSurface>(frame, cone.radius(), cone.top_radius(), h, cone.domain());

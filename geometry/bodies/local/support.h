@@ -13,9 +13,9 @@ namespace lekalo::geometry {
 // Of a surface that is plane: a frame of the plane with z along r_u x r_v, a Plane's own; of others nothing.
 std::optional<Frame> plane_of(const SurfacePtr& surface);
 
-// The surface at a distance along r_u x r_v with the parameters of the old one. The offset of a cone is the cone moved
-// along its axis, that of an extrusion or a revolution the one of its curve's offset; else as offset_surface, to which
-// conditions and errors belong. A mitred offset of a curve may throw FieldError (that field).
+// The surface at a distance along r_u x r_v with the parameters of the old one. The offset of a cone with its apex is
+// the cone moved along its axis, that of an extrusion or a revolution the one of its curve's offset; else as
+// offset_surface, to which conditions and errors belong. A mitred offset of a curve may throw FieldError (that field).
 SurfacePtr offset_support(const SurfacePtr& surface, double distance, const char* field);
 
 // The surface under a map; one that is rigid makes a plane, a cylinder, a cone or an extrusion of one of them.
