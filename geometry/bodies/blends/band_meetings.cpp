@@ -83,6 +83,19 @@ std::optional<BandOnSurface> line_on_surface(const BlendBand& band, double z, co
   return BandOnSurface{x(0), Vec2(x(1), x(2))};
 }
 
+std::optional<BandOnSurface> section_on_surface(const BlendBand& band, double s, const Surface& surface,
+                                                const BandOnSurface& near) {
+  Eigen::Vector3d x(near.s, near.place.x, near.place.y);
+  const bool found = solved<3>(x, size_of(band), [&](const auto& at, auto& matrix, auto& value) {
+    const BlendBand::Local p = band.at(s, at(0));
+    const SurfaceJet c = surface.evaluate(at(1), at(2), 1);
+    matrix.col(0) = column(p.dz), matrix.col(1) = column(-c.du()), matrix.col(2) = column(-c.dv());
+    value = column(p.point - c.point());
+  });
+  if (!found) return std::nullopt;
+  return BandOnSurface{x(0), Vec2(x(1), x(2))};
+}
+
 double first_approach(const Curve& curve, bool from_end, const Vec3& p, const Vec3& d) {
   constexpr int kSteps = 128;
   const Interval domain = curve.domain();

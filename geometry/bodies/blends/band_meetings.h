@@ -26,6 +26,10 @@ struct BandOnSurface {
 std::optional<BandOnSurface> line_on_surface(const BlendBand& band, double z, const Surface& surface,
                                              const BandOnSurface& near);
 
+// Where the section of a band at s meets a surface: `s` of the result is z.
+std::optional<BandOnSurface> section_on_surface(const BlendBand& band, double s, const Surface& surface,
+                                                const BandOnSurface& near);
+
 // The parameter of a curve at which it first comes near to the line through p along d, as it goes from one end of its
 // domain.
 double first_approach(const Curve& curve, bool from_end, const Vec3& p, const Vec3& d);

@@ -23,6 +23,15 @@ const Coedge& coedge_on(const Body& body, const BlendEdge& edge, int side) {
   throw std::logic_error("an edge is used once in each direction");
 }
 
+// Of a face's support, seen along r_u x r_v, towards the ball.
+double side_of_ball(const Body& body, int face, const SurfacePtr& support, const Vec2& at, bool convex) {
+  const Vec3 outward = body.normal(face, at.x, at.y);
+  const Vec2 place = foot_place_anywhere(support, body.faces[face].surface->point(at.x, at.y), at);
+  const SurfaceJet jet = support->evaluate(place.x, place.y, 1);
+  const bool along = glm::dot(glm::cross(jet.du(), jet.dv()), outward) > 0;
+  return along == convex ? -1 : 1;
+}
+
 // Where a border turned back the sections would cross each other: the contact is beyond a center of curvature.
 void require_forward(const Contacts& contacts, const Interval& domain, const std::string& field) {
   constexpr int kPlaces = 32;
@@ -63,15 +72,9 @@ BlendBand::BlendBand(const Body& body, const BlendEdge& edge, const BlendRule& r
   law.kind = rule.kind;
   law.size_field = rule.field.c_str();
   for (int side = 0; side < 2; ++side) {
-    const Face& face = body.faces[edge.faces[side]];
-    law.of[side] = support_of(face.surface);
-    // Of the face, seen along r_u x r_v, towards the ball.
     const Vec2 at(coedge_on(body, edge, side).image->point(old.curve->domain().middle()));
-    const Vec3 outward = body.normal(edge.faces[side], at.x, at.y);
-    const auto place = foot_place_anywhere(law.of[side], face.surface->point(at.x, at.y), at);
-    const SurfaceJet jet = law.of[side]->evaluate(place.x, place.y, 1);
-    const bool along = glm::dot(glm::cross(jet.du(), jet.dv()), outward) > 0;
-    law.sides[side] = along == edge.convex ? -1 : 1;
+    law.of[side] = support_of(body.faces[edge.faces[side]].surface);
+    law.sides[side] = side_of_ball(body, edge.faces[side], law.of[side], at, edge.convex);
     law.sizes[side] = rule.sizes[(side == 0) == edge.first_is_left ? 1 : 0];
   }
   is_closed_ = old.start == old.end && is_closed_smoothly(*old.curve);
@@ -79,19 +82,48 @@ BlendBand::BlendBand(const Body& body, const BlendEdge& edge, const BlendRule& r
   law.guide = is_closed_ ? old.curve : guide_beyond(old.curve, reach);
   law.measured = old.curve;
   law.period = is_closed_ ? domain.width() : 0;
-  if (rule.is_plain_ball()) radius_ = rule.sizes[0](0.0);
   const double middle = domain.middle();
   const Vec3 p = old.curve->point(middle);
   std::array<Vec2, 2> starts;
   for (int side = 0; side < 2; ++side)
     starts[side] = foot_place_anywhere(law.of[side], p, Vec2(coedge_on(body, edge, side).image->point(middle)));
   const Contacts contacts(std::move(law), middle, starts);
+  make(edge, rule, contacts, domain);
+}
+
+BlendBand::BlendBand(const Body& body, const BlendEdge& edge, const BlendRule& rule, int side, const CurvePtr& rim,
+                     const std::array<Vec3, 2>& contacts) {
+  const bool rests = rim != nullptr;
+  from_left_ = rests && side == 0;
+  BlendLaw law;
+  law.kind = rests ? BlendKind::edge : rule.kind;
+  law.size_field = rule.field.c_str();
+  law.guide = rests ? rim : body.edges[edge.edge].curve;
+  std::array<Vec2, 2> starts;
+  for (int k = 0; k < 2; ++k) {
+    const int of = from_left_ ? 1 - k : k;
+    const SurfacePtr& surface = body.faces[edge.faces[of]].surface;
+    const Rectangle domain = surface->domain();
+    const Vec2 at = foot_place_anywhere(surface, contacts[of], {domain.u.middle(), domain.v.middle()});
+    law.of[k] = support_of(surface);
+    law.sides[k] = side_of_ball(body, edge.faces[of], law.of[k], at, edge.convex);
+    law.sizes[k] = rule.sizes[(of == 0) == edge.first_is_left ? 1 : 0];
+    starts[k] = foot_place_anywhere(law.of[k], contacts[of], at);
+  }
+  const Interval domain = law.guide->domain();
+  make(edge, rule, Contacts(std::move(law), domain.lo, starts, true), domain);
+}
+
+void BlendBand::make(const BlendEdge& edge, const BlendRule& rule, const Contacts& contacts, const Interval& domain) {
+  kind_ = contacts.law().kind;
+  if (rule.is_plain_ball()) radius_ = rule.sizes[0](0.0);
   const double small = 1e-9 * domain.width();
   if (contacts.domain().lo > domain.lo + small || contacts.domain().hi < domain.hi - small)
     throw FieldError(rule.field, "the contacts leave the faces' surfaces before the end of the edge");
   require_forward(contacts, contacts.domain().contains(domain) ? domain : contacts.domain(), rule.field);
-  is_exact_ = rule.kind == BlendKind::chamfer ? rule.is_constant() && make_exact_chamfer(contacts)
-                                              : rule.is_plain_ball() && make_exact_fillet(contacts);
+  is_exact_ = rule.kind == BlendKind::chamfer
+                  ? rule.is_constant() && make_exact_chamfer(contacts)
+                  : rule.is_plain_ball() && kind_ == BlendKind::ball && make_exact_fillet(contacts);
   if (!is_exact_) make_fitted(contacts, rule);
   const Contact first = contacts.at(contacts.domain().clamp(domain.lo)),
                 last = contacts.at(contacts.domain().clamp(domain.hi));
@@ -103,7 +135,7 @@ BlendBand::BlendBand(const Body& body, const BlendEdge& edge, const BlendRule& r
     ends_ = {domain.lo, domain.hi};
   // Out of the body: against the sum of the normals towards the ball in a convex edge.
   const double s = 0.5 * (ends_[0] + ends_[1]);
-  const Contact at = contacts.at(middle);
+  const Contact at = contacts.at(domain.middle());
   const Vec3 out = (edge.convex ? -1.0 : 1.0) * (at.normals[0] + at.normals[1]);
   const SurfaceJet jet = surface_->evaluate(place(s, 0.5).x, place(s, 0.5).y, 1);
   outward_ = glm::dot(glm::cross(jet.du(), jet.dv()), out) > 0 ? 1 : -1;
@@ -188,19 +220,22 @@ Interval BlendBand::range() const {
 }
 
 Vec2 BlendBand::place(double s, double z) const {
-  const double along = sign_ * s, across = z == 1 ? across_.hi : across_.lo + z * across_.width();
+  const double x = from_left_ ? 1 - z : z;
+  const double along = sign_ * s, across = x == 1 ? across_.hi : across_.lo + x * across_.width();
   return along_u_ ? Vec2(along, across) : Vec2(across, along);
 }
 
 double BlendBand::s_of(const Vec2& place) const { return sign_ * (along_u_ ? place.x : place.y); }
 double BlendBand::z_of(const Vec2& place) const {
-  return ((along_u_ ? place.y : place.x) - across_.lo) / across_.width();
+  const double x = ((along_u_ ? place.y : place.x) - across_.lo) / across_.width();
+  return from_left_ ? 1 - x : x;
 }
 
 BlendBand::Local BlendBand::at(double s, double z) const {
   const Vec2 uv = place(s, z);
   const SurfaceJet jet = surface_->evaluate(uv.x, uv.y, 1);
-  return {jet.point(), sign_ * (along_u_ ? jet.du() : jet.dv()), across_.width() * (along_u_ ? jet.dv() : jet.du())};
+  const double width = from_left_ ? -across_.width() : across_.width();
+  return {jet.point(), sign_ * (along_u_ ? jet.du() : jet.dv()), width * (along_u_ ? jet.dv() : jet.du())};
 }
 
 Vec3 BlendBand::outward(double s, double z) const {

@@ -16,6 +16,10 @@
 
 namespace lekalo::geometry {
 
+// What becomes of a fillet whose border leaves a face over a sharp edge: the face beyond cuts it, or the ball rests on
+// the edge.
+enum class Overflow { cut, edge };
+
 // What an edge is replaced by.
 struct BlendRule {
   BlendKind kind = BlendKind::ball;
@@ -24,6 +28,7 @@ struct BlendRule {
   double weight = 0;  // of the section's middle: 0 as a circle has it
   std::string role;   // of the new faces: fillets.0
   std::string field;  // which messages name
+  Overflow overflow = Overflow::cut;
   bool is_plain_ball() const {
     return kind == BlendKind::ball && weight == 0 && sizes[0].is_constant() && sizes[1].is_constant() &&
            sizes[0](0.0) == sizes[1](0.0);
@@ -45,6 +50,11 @@ class BlendBand {
   // `reach`: how far the band goes beyond the edge's start and end, a length. Throws FieldError for sizes for which
   // there is none.
   BlendBand(const Body& body, const BlendEdge& edge, const BlendRule& rule, const std::array<double, 2>& reach);
+
+  // The part of a fillet beside a rim (Beyond::roll: between the face beyond and the other one; Beyond::edge: between
+  // the rim, a curve that runs with the edge, and the other face). `contacts`: on the right and left side at the start.
+  BlendBand(const Body& body, const BlendEdge& edge, const BlendRule& rule, int side, const CurvePtr& rim,
+            const std::array<Vec3, 2>& contacts);
 
   const SurfacePtr& surface() const { return surface_; }
   // s of the sections across the edge's start and end, and of the ends of the surface.
@@ -73,10 +83,12 @@ class BlendBand {
 
   // The surface over these sections alone, its parameters as before; whether the face's normal is its own.
   SurfacePtr cut(const Interval& s) const;
+  BlendKind kind() const { return kind_; }
   bool is_closed() const { return is_closed_; }
   bool is_exact() const { return is_exact_; }
 
  private:
+  void make(const BlendEdge& edge, const BlendRule& rule, const Contacts& contacts, const Interval& domain);
   bool make_exact_fillet(const Contacts& contacts);
   bool make_exact_chamfer(const Contacts& contacts);
   void make_fitted(const Contacts& contacts, const BlendRule& rule);
@@ -84,10 +96,12 @@ class BlendBand {
 
   SurfacePtr surface_;
   std::function<SurfacePtr(const Interval& along)> cut_;
-  bool along_u_ = true;  // which parameter of the surface runs along the edge
-  double sign_ = 1;      // it runs with the edge, or against it
+  bool along_u_ = true;     // which parameter of the surface runs along the edge
+  double sign_ = 1;         // it runs with the edge, or against it
+  bool from_left_ = false;  // across it runs from the left to the right side
   Interval across_{0, 1};
   std::array<double, 2> ends_{0, 1};
+  BlendKind kind_ = BlendKind::ball;
   double radius_ = 0;     // 0: no ball of constant radius
   double to_center_ = 0;  // the surface's normal times this leads to the ball's center
   bool is_closed_ = false, is_exact_ = false;

@@ -92,6 +92,10 @@ void lead_over(const Body& body, const std::map<int, size_t>& known, std::vector
 
 }  // namespace
 
+bool is_smooth_end(const Body& body, const HalfEdge& half) {
+  return std::abs(sharpness(body, half.edge, parameter_of(body, half))) < kSharp;
+}
+
 size_t continuation(const Body& body, const Fan& fan) {
   const Vec3 from = direction_of(body, fan.edges[0]);
   size_t found = 0;

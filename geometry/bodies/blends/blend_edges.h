@@ -31,6 +31,9 @@ struct BlendRequest {
 // are smooth. The index in the fan of the half-edge that continues the first one, or 0.
 size_t continuation(const Body& body, const Fan& fan);
 
+// The faces beside an edge have one tangent plane where it ends.
+bool is_smooth_end(const Body& body, const HalfEdge& half);
+
 // One for each edge, in the order in which they are asked for; `rules`: those of the requests, and more for edges that
 // lead from one radius to another. Throws BlendError for an edge that is smooth or free or asked for twice.
 std::vector<BlendEdge> blend_edges(const Body& body, const std::vector<BlendRequest>& requests,

@@ -6,10 +6,13 @@
 #include <cmath>
 #include <set>
 
+#include "geometry/bodies/blends/crossing.h"
+#include "geometry/bodies/blends/overruns.h"
 #include "geometry/bodies/blends/supports.h"
 #include "geometry/bodies/blends/surgery.h"
 #include "geometry/bodies/constructions/swept_body.h"
 #include "geometry/bodies/topology/entity_names.h"
+#include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/curves/operations/curve_part.h"
 #include "geometry/describe.h"
 #include "geometry/surfaces/analytic/plane.h"
@@ -32,12 +35,27 @@ Box3 sampled_box(const Curve& image) {
 
 class Blending {
  public:
-  Blending(const Body& body, const std::vector<BlendRequest>& requests, Corners corners)
+  Blending(const Body& body, const std::vector<BlendRequest>& requests, Corners corners, const Beyonds& beyonds)
       : body_(body), corners_(corners), surgery_{body, rules_, BodyDraft(body), bounds(body).diameter(), {}, {}, {},
                                                  {},   {}} {
     const std::vector<BlendEdge> edges = blend_edges(body, requests, rules_);
     for (size_t i = 0; i < edges.size(); ++i) surgery_.blend_of[edges[i].edge] = i;
+    for (const auto& [edge, beyond] : beyonds_) {
+      rims_[beyond.rim] = edge;
+      for (const bool at_end : {false, true}) surgery_.fixed_vertices.push_back(vertex_of(body, {beyond.rim, at_end}));
+    }
     for (const BlendEdge& edge : edges) surgery_.blends.push_back({edge, band_of(edge), {}, {}, {}});
+  }
+
+  // The first place where a blend does not find room on a face.
+  std::optional<std::pair<int, Overrun>> overrun() const {
+    for (const EdgeBlend& blend : surgery_.blends) {
+      const int edge = blend.edge.edge;
+      if (beyonds_.count(edge)) continue;
+      if (const auto found = overrun_of(body_, blend.edge, blend.band, surgery_.rule_of(blend).overflow))
+        return std::pair(edge, *found);
+    }
+    return std::nullopt;
   }
 
   Stage run() {
@@ -59,15 +77,30 @@ class Blending {
     const double size = 4 * std::max(rule.sizes[0](0.5), rule.sizes[1](0.5));
     std::array<double, 2> reach{size, size};
     for (const bool at_end : {false, true}) {
+      if (is_smooth_end(body_, {edge.edge, at_end})) reach[at_end] = 0;
       const Fan fan = fan_from(body_, {edge.edge, at_end});
       const size_t next = fan.edges.empty() ? 0 : continuation(body_, fan);
       if (next > 0 && surgery_.is_blended(fan.edges[next])) reach[at_end] = 0;
     }
     try {
+      const auto beyond = beyonds_.find(edge.edge);
+      if (beyond != beyonds_.end() && beyond->second.kind != BeyondKind::overflow)
+        return band_beside(edge, rule, beyond->second);
       return BlendBand(body_, edge, rule, reach);
     } catch (const FieldError& error) {
       throw BlendError(edge.edge, error.what());
     }
+  }
+
+  BlendBand band_beside(BlendEdge edge, const BlendRule& rule, const Beyond& beyond) const {
+    if (beyond.kind == BeyondKind::roll) {
+      edge.faces[beyond.side] = beyond.face;
+      return {body_, edge, rule, beyond.side, nullptr, beyond.contacts};
+    }
+    CurvePtr rim = body_.edges[beyond.rim].curve;
+    const Vec3 begin = rim->point(rim->domain().lo);
+    if (glm::length(begin - beyond.points[0]) > glm::length(begin - beyond.points[1])) rim = reversed_curve(rim);
+    return {body_, edge, rule, beyond.side, rim, beyond.contacts};
   }
 
   void meet_vertices() {
@@ -87,6 +120,7 @@ class Blending {
   void meet_vertex(const Fan& fan) {
     const size_t count = static_cast<size_t>(std::count_if(
         fan.edges.begin(), fan.edges.end(), [&](const HalfEdge& half) { return surgery_.is_blended(half); }));
+    if (is_smooth_end(body_, fan.edges[0])) return run_to_point(surgery_, fan);
     if (count == 1) return run_out(surgery_, fan);
     const size_t next = continuation(body_, fan);
     if (count == 2 && next > 0 && surgery_.is_blended(fan.edges[next])) return join(surgery_, fan, next);
@@ -136,54 +170,177 @@ class Blending {
 
   void retrace_loops() {
     for (size_t b = 0; b < surgery_.blends.size(); ++b) borders_.push_back(borders_of(surgery_.blends[b]));
-    for (size_t f = 0; f < body_.faces.size(); ++f) {
-      DraftFace& face = surgery_.draft.faces[f];
-      bool changed = false;
-      for (auto& loop : face.loops) {
-        std::vector<Body::Use> uses;
-        for (const Body::Use& use : loop) {
-          const auto blended = surgery_.blend_of.find(use.edge);
-          if (blended != surgery_.blend_of.end()) {
-            uses.push_back(border_use(blended->second, use, face.surface));
-            changed = true;
-          } else if (surgery_.trims.count(use.edge)) {
-            uses.push_back({use.edge, use.forward, trimmed_image(use, face.surface)});
-            changed = true;
-          } else {
-            uses.push_back(use);
-          }
-          const auto corner = surgery_.corners.find({use.edge, use.forward});
-          if (corner != surgery_.corners.end()) uses.insert(uses.end(), corner->second.begin(), corner->second.end());
-        }
-        loop = std::move(uses);
-      }
-      if (changed) face.trimmed = true;
-    }
+    for (size_t f = 0; f < body_.faces.size(); ++f) retrace(static_cast<int>(f));
   }
 
-  // Edges along the right and the left border of a band, in the direction of its edge, with images on the band.
-  std::array<Body::Use, 2> borders_of(const EdgeBlend& blend) {
-    std::array<Body::Use, 2> result;
+  void retrace(int f) {
+    DraftFace& face = surgery_.draft.faces[f];
+    bool changed = false, opened = false;
+    for (auto& loop : face.loops) {
+      std::vector<Body::Use> uses;
+      for (const Body::Use& use : loop) {
+        const std::vector<Body::Use> now = now_of(use, f, opened);
+        changed = changed || now.size() != 1 || now[0].edge != use.edge || now[0].image != use.image;
+        uses.insert(uses.end(), now.begin(), now.end());
+        const auto corner = surgery_.corners.find({use.edge, use.forward});
+        if (corner == surgery_.corners.end()) continue;
+        uses.insert(uses.end(), corner->second.begin(), corner->second.end());
+        changed = true;
+      }
+      loop = std::move(uses);
+    }
+    if (changed) face.trimmed = true;
+    if (opened) rechain(face);
+  }
+
+  // What a use of an old edge has become; `opened`: the loop has a gap there, or another beginning.
+  std::vector<Body::Use> now_of(const Body::Use& use, int face, bool& opened) const {
+    const SurfacePtr& surface = surgery_.draft.faces[face].surface;
+    const auto blended = surgery_.blend_of.find(use.edge);
+    if (blended != surgery_.blend_of.end()) {
+      opened = opened || beyonds_.count(use.edge) > 0;
+      return pieces_on(blended->second, use.forward ? 1 : 0, face, use.forward, use.image);
+    }
+    const auto rim = rims_.find(use.edge);
+    if (rim != rims_.end()) {
+      const Beyond& beyond = beyonds_.at(rim->second);
+      if (face != beyond.face) {
+        opened = true;
+        return {};
+      }
+      if (beyond.kind != BeyondKind::edge)
+        return pieces_on(surgery_.blend_of.at(rim->second), beyond.side, face, beyond.side == 1, use.image);
+    }
+    if (surgery_.trims.count(use.edge)) return {{use.edge, use.forward, trimmed_image(use, surface)}};
+    return {use};
+  }
+
+  // The pieces of a border that lie in a face, in the direction in which its loop runs.
+  std::vector<Body::Use> pieces_on(size_t b, int side, int face, bool forward, const Curve2Ptr& old) const {
+    std::vector<Body::Use> uses;
+    for (const Border& piece : borders_[b][side]) {
+      if (piece.face != face) continue;
+      const SurfacePtr& surface = surgery_.draft.faces[face].surface;
+      const CurvePtr& curve = surgery_.draft.edges[piece.use.edge].curve;
+      const Vec2 beside(old->point(old->domain().middle()));
+      Curve2Ptr image = piece.on_face;
+      if (!image)
+        image = image_on(surface, curve, foot_place_anywhere(surface, curve->point(curve->domain().middle()), beside));
+      if (!image)
+        throw BlendError(surgery_.blends[b].edge.edge, "the border of its blend leaves the surface of a face");
+      uses.push_back({piece.use.edge, piece.use.forward == forward, image});
+    }
+    if (!forward) std::reverse(uses.begin(), uses.end());
+    return uses;
+  }
+
+  // Loops anew from uses that follow one another; the one that encloses most is the outer one.
+  void rechain(DraftFace& face) const {
+    std::map<int, Body::Use> leaving;
+    for (const auto& loop : face.loops)
+      for (const Body::Use& use : loop) {
+        const Edge& edge = surgery_.draft.edges[use.edge];
+        if (!leaving.emplace(use.forward ? edge.start : edge.end, use).second)
+          throw BlendError(surgery_.blends.front().edge.edge, "its border touches others of the face", false);
+      }
+    std::vector<std::pair<double, std::vector<Body::Use>>> loops;
+    while (!leaving.empty()) {
+      std::vector<Body::Use> loop;
+      double area = 0;
+      int at = leaving.begin()->first;
+      for (auto next = leaving.find(at); next != leaving.end(); next = leaving.find(at)) {
+        const Body::Use use = next->second;
+        leaving.erase(next);
+        const Edge& edge = surgery_.draft.edges[use.edge];
+        at = use.forward ? edge.end : edge.start;
+        area += (use.forward ? 1 : -1) * area_beside(*use.image);
+        loop.push_back(use);
+      }
+      loops.emplace_back(std::abs(area), std::move(loop));
+    }
+    std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    face.loops.clear();
+    for (auto& [area, loop] : loops) face.loops.push_back(std::move(loop));
+  }
+
+  // Twice the area between a curve and the origin.
+  static double area_beside(const Curve& image) {
+    constexpr int kSteps = 32;
+    const Interval t = image.domain();
+    double area = 0;
+    Vec3 last = image.point(t.lo);
+    for (int k = 1; k <= kSteps; ++k) {
+      const Vec3 here = image.point(t.lo + t.width() * k / kSteps);
+      area += last.x * here.y - last.y * here.x;
+      last = here;
+    }
+    return area;
+  }
+
+  // A piece of a border: its edge as the band uses it in the edge's direction, and the face on its other side.
+  struct Border {
+    Body::Use use;
+    int face = -1;
+    Curve2Ptr on_face;  // if it is known
+  };
+
+  std::array<std::vector<Border>, 2> borders_of(const EdgeBlend& blend) {
+    std::array<std::vector<Border>, 2> result;
+    const auto found = beyonds_.find(blend.edge.edge);
     for (int side = 0; side < 2; ++side) {
       const double from = blend.s[0][side], to = blend.s[1][side];
       if (!(to - from > 1e-9 * blend.band.range().width()))
         throw BlendError(blend.edge.edge, "nothing is left of its blend between those at its ends");
-      const LineOnSurface line = blend.band.border(side, from, to);
-      const int edge = surgery_.draft.add_edge(line.curve, blend.vertices[0][side], blend.vertices[1][side],
-                                               surgery_.origin(blend, side == 0 ? "right" : "left"));
-      result[side] = {edge, true, line.image};
+      const Beyond* beyond = found != beyonds_.end() && found->second.side == side ? &found->second : nullptr;
+      if (!beyond)
+        result[side] = {border_piece(blend, side, from, to, blend.vertices[0][side], blend.vertices[1][side])};
+      else if (beyond->kind == BeyondKind::overflow)
+        result[side] = overflowing(blend, *beyond, from, to);
+      else if (beyond->kind == BeyondKind::edge)
+        result[side] = {along_rim(blend, *beyond)};
+      else
+        result[side] = {border_piece(blend, side, from, to, blend.vertices[0][side], blend.vertices[1][side])};
+      if (beyond && beyond->kind == BeyondKind::roll) result[side][0].face = beyond->face;
     }
     return result;
   }
 
-  Body::Use border_use(size_t b, const Body::Use& old, const SurfacePtr& surface) const {
-    const Body::Use& border = borders_[b][old.forward ? 1 : 0];
-    const CurvePtr& curve = surgery_.draft.edges[border.edge].curve;
-    const Vec2 beside(old.image->point(old.image->domain().middle()));
-    const Vec2 near = foot_place_anywhere(surface, curve->point(curve->domain().middle()), beside);
-    const Curve2Ptr image = image_on(surface, curve, near);
-    if (!image) throw BlendError(surgery_.blends[b].edge.edge, "the border of its blend leaves the surface of a face");
-    return {border.edge, old.forward, image};
+  Border border_piece(const EdgeBlend& blend, int side, double from, double to, int start, int end) {
+    const LineOnSurface line = blend.band.border(side, from, to);
+    const int edge =
+        surgery_.draft.add_edge(line.curve, start, end, surgery_.origin(blend, side == 0 ? "right" : "left"));
+    return {{edge, true, line.image}, blend.edge.faces[side], nullptr};
+  }
+
+  // The rim itself.
+  Border along_rim(const EdgeBlend& blend, const Beyond& beyond) {
+    const Edge& rim = surgery_.draft.edges[beyond.rim];
+    const bool forward = rim.start == blend.vertices[0][beyond.side];
+    const Interval s = blend.band.range();
+    const Curve2Ptr image = image_on(blend.band.surface(), rim.curve, blend.band.place(s.middle(), beyond.side));
+    if (!image) throw BlendError(blend.edge.edge, "its blend does not lie on the edge on which the ball rests");
+    return {{beyond.rim, forward, image}, -1, nullptr};
+  }
+
+  // The border up to the rim, the edge in which the face beyond cuts the band, the border from the rim on.
+  std::vector<Border> overflowing(const EdgeBlend& blend, const Beyond& beyond, double from, double to) {
+    const int side = beyond.side;
+    const SurfacePtr& surface = surgery_.draft.faces[beyond.face].surface;
+    std::array<int, 2> vertices;
+    std::array<BandOnCurve, 2> ends;
+    std::array<Vec2, 2> places;
+    for (int k = 0; k < 2; ++k) {
+      vertices[k] = surgery_.vertex_at(beyond.points[k]);
+      ends[k] = {beyond.s[k], static_cast<double>(side), 0, beyond.points[k]};
+      const Edge& rim = body_.edges[beyond.rim];
+      const bool at_end = rim.end == vertices[k];
+      places[k] = place_on(body_, beyond.face, {beyond.rim, at_end}, parameter_of(body_, {beyond.rim, at_end}));
+    }
+    const Crossing cut = crossing_along(blend.band, surface, ends, places, surgery_.size, blend.edge.edge);
+    const int edge = surgery_.draft.add_edge(cut.curve, vertices[0], vertices[1], surgery_.origin(blend, "overflow"));
+    return {border_piece(blend, side, from, beyond.s[0], blend.vertices[0][side], vertices[0]),
+            {{edge, true, cut.on_band}, beyond.face, cut.on_face},
+            border_piece(blend, side, beyond.s[1], to, vertices[1], blend.vertices[1][side])};
   }
 
   void add_bands() {
@@ -198,9 +355,10 @@ class Blending {
             lo = std::min(lo, s), hi = std::max(hi, s);
           }
         }
-      const bool is_straight = std::abs(lo - blend.s[0][0]) + std::abs(hi - blend.s[1][0]) +
-                                   std::abs(lo - blend.s[0][1]) + std::abs(hi - blend.s[1][1]) <=
-                               1e-12 * (hi - lo);
+      const bool is_cut = borders_[b][0].size() + borders_[b][1].size() > 2;
+      const bool is_straight = !is_cut && std::abs(lo - blend.s[0][0]) + std::abs(hi - blend.s[1][0]) +
+                                                  std::abs(lo - blend.s[0][1]) + std::abs(hi - blend.s[1][1]) <=
+                                              1e-12 * (hi - lo);
       DraftFace face;
       face.surface = blend.band.cut(is_straight ? Interval(blend.s[0][0], blend.s[1][0]) : Interval(lo, hi));
       face.trimmed = !is_straight;
@@ -217,10 +375,11 @@ class Blending {
   // The right border, the section at the end, the left border back, the section at the start back.
   std::vector<Body::Use> loop_of(size_t b) const {
     const EdgeBlend& blend = surgery_.blends[b];
-    std::vector<Body::Use> loop{borders_[b][0]};
+    std::vector<Body::Use> loop;
+    for (const Border& piece : borders_[b][0]) loop.push_back(piece.use);
     loop.insert(loop.end(), blend.sections[1].begin(), blend.sections[1].end());
-    const Body::Use& left = borders_[b][1];
-    loop.push_back({left.edge, false, left.image});
+    for (auto piece = borders_[b][1].rbegin(); piece != borders_[b][1].rend(); ++piece)
+      loop.push_back({piece->use.edge, !piece->use.forward, piece->use.image});
     for (auto use = blend.sections[0].rbegin(); use != blend.sections[0].rend(); ++use)
       loop.push_back({use->edge, !use->forward, use->image});
     return loop;
@@ -278,13 +437,53 @@ class Blending {
   Corners corners_;
   Surgery surgery_;
   std::map<int, CurvePtr> whole_;
-  std::vector<std::array<Body::Use, 2>> borders_;
+  Beyonds beyonds_;
+  std::map<int, int> rims_;                                  // the blended edge beside each
+  std::vector<std::array<std::vector<Border>, 2>> borders_;  // right, left: in the direction of the edge
 };
+
+// Requests and what is known of overruns, for a body some of whose edges have fallen into parts.
+void renumber(const Divided& divided, std::vector<BlendRequest>& requests, Beyonds& beyonds) {
+  for (BlendRequest& one : requests) {
+    std::vector<int> edges;
+    for (const int edge : one.edges) edges.insert(edges.end(), divided.parts[edge].begin(), divided.parts[edge].end());
+    one.edges = std::move(edges);
+  }
+  Beyonds renumbered;
+  for (const auto& [edge, beyond] : beyonds) {
+    renumbered[divided.parts[edge].front()] = beyond;
+    renumbered[divided.parts[edge].front()].rim = divided.parts[beyond.rim].front();
+  }
+  beyonds = std::move(renumbered);
+}
 
 }  // namespace
 
 Stage blended_at_once(const Body& body, const std::vector<BlendRequest>& requests, Corners corners) {
-  return Blending(body, requests, corners).run();
+  constexpr int kMostOverruns = 16;
+  Body divided_body;
+  const Body* now = &body;
+  std::vector<BlendRequest> asked = requests;
+  Beyonds beyonds;
+  std::vector<int> numbers(body.edges.size());
+  for (size_t e = 0; e < numbers.size(); ++e) numbers[e] = static_cast<int>(e);
+  for (int k = 0;; ++k) {
+    Blending blending(*now, asked, corners, beyonds);
+    const auto overrun = k < kMostOverruns ? blending.overrun() : std::nullopt;
+    if (!overrun) {
+      Stage stage = blending.run();
+      std::vector<int> edges;
+      for (const int e : numbers) edges.push_back(e < 0 ? -1 : stage.edges[e]);
+      stage.edges = std::move(edges);
+      return stage;
+    }
+    Divided parts = divided(*now, overrun->first, overrun->second);
+    renumber(parts, asked, beyonds);
+    beyonds[parts.blended] = parts.beyond;
+    for (int& e : numbers) e = e < 0 ? -1 : parts.parts[e].front();
+    divided_body = std::move(parts.body);
+    now = &divided_body;
+  }
 }
 
 }  // namespace lekalo::geometry

@@ -17,4 +17,8 @@ struct Crossing {
 Crossing crossing(const BlendBand& band, const SurfacePtr& face, const std::array<BandOnCurve, 2>& ends,
                   const std::array<Vec2, 2>& places, double size, int edge);
 
+// The same along the band: the points where the sections between two of its places meet a surface.
+Crossing crossing_along(const BlendBand& band, const SurfacePtr& face, const std::array<BandOnCurve, 2>& ends,
+                        const std::array<Vec2, 2>& places, double size, int edge);
+
 }  // namespace lekalo::geometry

@@ -108,6 +108,7 @@ BlendRequest fillet_request(const Body& body, const Fields& f, size_t number) {
     rule.sizes = {law_of(given.front()), law_of(given.back())};
   }
   const std::string word = f.word("section");
+  rule.overflow = f.text("overflow") == "edge" ? Overflow::edge : Overflow::cut;
   require_positive(rule, "fillets", number);
   rule.weight = word == "circle" ? 0 : word == "parabola" ? 1 : f.number("section");
   return request;
@@ -255,7 +256,11 @@ TypeDeclaration fillet_body_type() {
                       "a circle (with two radii, an ellipse), or the middle weight of another conic: below 1 an "
                       "ellipse, 1 a parabola, above a hyperbola",
                       false, "circle"},
-                     {"chain", boolean(), kChain, false, "true"}})
+                     {"chain", boolean(), kChain, false, "true"},
+                     {"overflow", choice({"cut", "edge"}),
+                      "where there is no room on a face and the next one does not go on smoothly: that one cuts the "
+                      "fillet, or the ball rests on the edge between them",
+                      false, "cut"}})
                  .count(1),
              "which edges, and how")
       .field("corners", choice({"round", "mitred"}),

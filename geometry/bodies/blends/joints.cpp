@@ -6,6 +6,7 @@
 
 #include "geometry/bodies/blends/supports.h"
 #include "geometry/bodies/blends/surgery.h"
+#include "geometry/bodies/primitives/construct.h"
 #include "geometry/bodies/topology/entity_names.h"
 #include "geometry/queries/closest/closest_point.h"
 #include "geometry/surfaces/analytic/sphere.h"
@@ -114,7 +115,7 @@ void join(Surgery& surgery, const Fan& fan, size_t other) {
                        fmt::format("it goes on smoothly in {}, but their blends have no section in common",
                                    name_of_edge(surgery.body, two.edge)),
                        false);
-    const int vertex = surgery.draft.add_vertex(p);
+    const int vertex = surgery.vertex_at(p);
     surgery.end_border(one, mine, s, vertex);
     surgery.end_border(two, its, t, vertex);
     if (k == 0)
@@ -124,6 +125,23 @@ void join(Surgery& surgery, const Fan& fan, size_t other) {
   }
   const int edge = add_section(surgery, one, s);
   share_section(surgery, two, edge, t);
+}
+
+void run_to_point(Surgery& surgery, const Fan& fan) {
+  for (const HalfEdge& half : fan.edges) {
+    if (!surgery.is_blended(half)) continue;
+    EdgeBlend& one = surgery.blend(half);
+    const double s = one.band.ends()[half.at_end];
+    for (const int side : {0, 1}) {
+      if (glm::length(one.band.at(s, side).point - surgery.body.vertices[fan.vertex].point) > kTogether * surgery.size)
+        throw BlendError(half.edge, "it meets edges in a point, but its blend does not end there", false);
+      surgery.end_border(half, side, s, fan.vertex);
+    }
+    const Vec3 point = surgery.body.vertices[fan.vertex].point;
+    const int edge = surgery.draft.add_edge(point_curve({0, 1}, point), fan.vertex, fan.vertex,
+                                            surgery.origin(one, "point"), EdgeKind::pole);
+    one.sections[half.at_end] = {{edge, true, image_line({0, 1}, one.band.place(s, 0), one.band.place(s, 1))}};
+  }
 }
 
 void round_corner(Surgery& surgery, const Fan& fan) {

@@ -20,6 +20,12 @@ Vec2 place_on(const Body& body, int face, const HalfEdge& half, double t) {
   throw std::logic_error("an edge of a fan belongs to the faces beside it");
 }
 
+int Surgery::vertex_at(const Vec3& point) {
+  for (const int vertex : fixed_vertices)
+    if (glm::length(draft.vertices[vertex].point - point) <= 1e-9 * size) return vertex;
+  return draft.add_vertex(point);
+}
+
 void Surgery::end_border(const HalfEdge& half, int side, double at, int vertex) {
   EdgeBlend& one = blend(half);
   one.s[half.at_end][side] = at;

@@ -38,6 +38,7 @@ struct Surgery {
   std::map<int, size_t> blend_of;  // of an edge
   std::map<int, EdgeTrim> trims;   // of edges that stay
   std::vector<DraftFace> corner_faces;
+  std::vector<int> fixed_vertices;  // at which borders begin and end
   // Uses to insert in the loop that arrives along a half-edge, with images on its face.
   std::map<HalfEdge, std::vector<Body::Use>> corners;
 
@@ -45,6 +46,8 @@ struct Surgery {
   EdgeBlend& blend(const HalfEdge& half) { return blends[blend_of.at(half.edge)]; }
   const BlendRule& rule_of(const EdgeBlend& blend) const { return rules[blend.edge.rule]; }
   Origin origin(const EdgeBlend& blend, const char* what) const { return {"", rule_of(blend).role + "." + what, -1}; }
+  // One of the fixed vertices, or a new one.
+  int vertex_at(const Vec3& point);
   // The border of a side ends at s, in a vertex.
   void end_border(const HalfEdge& half, int side, double s, int vertex);
   // The edges in which the band of a half-edge ends, from the side before it to the side after it.
@@ -65,6 +68,8 @@ void run_out(Surgery& surgery, const Fan& fan);
 void join(Surgery& surgery, const Fan& fan, size_t other);
 // Two of three edges, or all three, that meet in a corner: their bands meet in edges.
 void mitre(Surgery& surgery, const Fan& fan);
+// Edges that become smooth in the vertex (Golovanov 2016, figure 6.9.4): both borders of each run together there.
+void run_to_point(Surgery& surgery, const Fan& fan);
 // All edges of the vertex, with one ball that touches all faces: a piece of a sphere.
 void round_corner(Surgery& surgery, const Fan& fan);
 

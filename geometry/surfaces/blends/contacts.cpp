@@ -47,12 +47,14 @@ Triple<Jet<double, 1>> varied(const std::array<Vec3, 3>& of, int axis) {
 
 }  // namespace
 
-Contacts::Contacts(BlendLaw law, double start_t, const std::array<Vec2, 2>& starts) : law_(std::move(law)) {
+Contacts::Contacts(BlendLaw law, double start_t, const std::array<Vec2, 2>& starts, bool known)
+    : law_(std::move(law)) {
   if (!(law_.sizes[0].is_constant() && law_.sizes[1].is_constant())) fraction_ = ArcFraction(measured());
   const Interval all = law_.guide->domain();
   const Place start = place_at(start_t);
   size_ = bounds(*law_.guide).diameter() + std::max(start.sizes[0], start.sizes[1]);
-  const Solution first = first_solution(start_t, starts);
+  const Solution first = known ? solve(start, {starts[0].x, starts[0].y, starts[1].x, starts[1].y, start.sizes[0]})
+                               : first_solution(start_t, starts);
   if (!first.found)
     throw FieldError(law_.size_field,
                      fmt::format("no contacts were found across the guide at [{:.4g}, {:.4g}, {:.4g}]", start.guide.x,

@@ -45,9 +45,9 @@ struct Contact {
 class Contacts {
  public:
   // `starts`: parameters on both surfaces near to the guide's point at `start_t`, or on both where the guide is their
-  // intersection. Throws FieldError where there are no such contacts, the ball does not fit into a surface, or a size
+  // intersection; with `known` they are contacts already. Throws FieldError where there are no such contacts, the ball does not fit into a surface, or a size
   // is not positive.
-  Contacts(BlendLaw law, double start_t, const std::array<Vec2, 2>& starts);
+  Contacts(BlendLaw law, double start_t, const std::array<Vec2, 2>& starts, bool known = false);
 
   const BlendLaw& law() const { return law_; }
   // The part of the guide's domain in which both contacts lie in the domains of their surfaces, the longest of several.
