@@ -28,6 +28,8 @@ SURFACES = {
                 "[0, 5], [3, 6], [1, 7]], points: [[-1, -1], [2, -1], [-1, 0], [1, 0.5, 1.5], [2, 0.5], [-1, 2], [1, 2, 1], [2, 2]]",
     "t_spline_functions": "of: { type: t_spline, at: [{ repeat: { i: 0..3, j: 0..3 }, point: [i, j] }], lines: [[0, 3], [4, 7], "
                           "[8, 11], [12, 15], [0, 12], [1, 13], [2, 14], [3, 15]] }, vertices: [5]",
+    "coordinate_surface": "point: [u*cos(v)*sin(w), u*sin(v)*sin(w), 1.3*u*cos(w)], hold: u, at: 1.2, "
+                          "domain: { u: [0.2, 2], v: [0.5, 2.5] }",
     "formula_surface": "point: ['(2 + cos(v))*cos(u)', '(2 + cos(v))*sin(u)', sin(v) + 0.3*sin(3*u)], "
                        "domain: { u: [0, 2*pi], v: [0, 2*pi] }, closed: true",
     "ruled_surface": "of: [{ type: circle, radius: 1.5 }, { type: circle, radius: 0.7, center: [0.3, 0, 2] }]",
