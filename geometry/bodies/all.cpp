@@ -37,7 +37,12 @@
   X(deleted_faces_type)        \
   X(detached_faces_type)       \
   X(fillet_body_type)          \
-  X(chamfer_body_type)
+  X(chamfer_body_type)         \
+  X(cut_body_type)             \
+  X(inverted_body_type)        \
+  X(symmetric_body_type)       \
+  X(nearest_extrusion_type)    \
+  X(rib_type)
 
 namespace lekalo::geometry {
 

@@ -12,6 +12,7 @@
 #include "geometry/bodies/booleans/gluing.h"
 #include "geometry/bodies/booleans/imprint.h"
 #include "geometry/bodies/booleans/merging.h"
+#include "geometry/queries/closest/distance.h"
 #include "geometry/queries/closest/position.h"
 #include "geometry/queries/rays/line_intersections.h"
 
@@ -43,6 +44,7 @@ std::shared_ptr<const TrimRegion> trim_by_loops(const Body& body, int f) {
 
 class Boolean {
  public:
+  // An open second body stands for the half of space that its normals look away from.
   Boolean(BooleanOperation operation, const Body& a, const Body& b)
       : operation_(operation), bodies_{&a, &b}, imprint_(imprint(a, b)) {}
 
@@ -68,6 +70,7 @@ class Boolean {
   void classify(int side) {
     const Body &own = *bodies_[side], &other = *bodies_[1 - side];
     const LineIntersector lines(other);
+    const bool open = !bodies_[1]->is_closed();
     std::vector<std::shared_ptr<const TrimRegion>> trims(other.faces.size());
     for (size_t f = 0; f < own.faces.size(); ++f) {
       const SurfacePtr& surface = own.faces[f].surface;
@@ -76,7 +79,10 @@ class Boolean {
         const Vec3 p = surface->point(uv.x, uv.y);
         Region region{static_cast<int>(f), std::move(plane), uv, p, Class::outside};
         const auto on = on_coincident(side, region, trims);
-        region.where = on ? *on : is_inside(p, lines) ? Class::inside : Class::outside;
+        region.where = on                    ? *on
+                       : open && side == 0   ? side_of_sheet(region)
+                       : is_inside(p, lines) ? Class::inside
+                                             : Class::outside;
         regions_[side].push_back(std::move(region));
       }
     }
@@ -94,6 +100,36 @@ class Boolean {
       return glm::dot(normal, other.normal(g, uv.x, uv.y)) > 0 ? Class::same : Class::opposite;
     }
     return std::nullopt;
+  }
+
+  // By the nearest point of the sheet: on an edge of it by the sum of the normals beside it.
+  Class side_of_sheet(const Region& region) const {
+    const Body& sheet = *bodies_[1];
+    const Distance found = distance(region.point, &sheet, DistanceMinima::nearest);
+    const DistancePlace& at = found.minima.front().b;
+    Vec3 normal(0);
+    if (at.kind == DistancePlace::Kind::face) {
+      normal = sheet.normal(at.index, at.u, at.v);
+    } else {
+      for (size_t f = 0; f < sheet.faces.size(); ++f) {
+        const bool beside = std::any_of(sheet.faces[f].loops.begin(), sheet.faces[f].loops.end(), [&](int loop) {
+          return std::any_of(sheet.loops[loop].coedges.begin(), sheet.loops[loop].coedges.end(), [&](int c) {
+            const Edge& edge = sheet.edges[sheet.coedges[c].edge];
+            return at.kind == DistancePlace::Kind::edge
+                       ? sheet.coedges[c].edge == at.index
+                       : glm::length(sheet.vertices[edge.start].point - at.point) <= imprint_.tolerance ||
+                             glm::length(sheet.vertices[edge.end].point - at.point) <= imprint_.tolerance;
+          });
+        });
+        if (!beside) continue;
+        const Vec2 uv = parameters_on(sheet.faces[f].surface, at.point);
+        normal += sheet.normal(static_cast<int>(f), uv.x, uv.y);
+      }
+    }
+    const double height = glm::dot(region.point - at.point, normal);
+    if (!(std::abs(height) > imprint_.tolerance * glm::length(normal)))
+      throw BooleanError("on which side of the sheet a face lies is not decided", region.point);
+    return height < 0 ? Class::inside : Class::outside;
   }
 
   // A region that is next to another across an edge that is not on the other body lies on the same side of it.
@@ -184,6 +220,20 @@ Body boolean(BooleanOperation operation, const Body& a, const Body& b) {
   for (const Body* body : {&a, &b})
     if (!body->is_closed()) throw std::invalid_argument("the body is not closed: it has no inside");
   return Boolean(operation, a, b).body();
+}
+
+Body cut(const Body& body, const Body& sheet, bool keep_inner) {
+  if (!body.is_closed()) throw std::invalid_argument("the body is not closed: it has no inside");
+  if (sheet.is_closed()) throw std::invalid_argument("the sheet is closed: take a difference or intersection");
+  return Boolean(keep_inner ? BooleanOperation::intersect : BooleanOperation::subtract, body, sheet).body();
+}
+
+Body inverted(const Body& body) {
+  Body result = body;
+  for (Face& face : result.faces) face.forward = !face.forward;
+  for (Loop& loop : result.loops) std::reverse(loop.coedges.begin(), loop.coedges.end());
+  for (Coedge& coedge : result.coedges) coedge.forward = !coedge.forward;
+  return result;
 }
 
 }  // namespace lekalo::geometry

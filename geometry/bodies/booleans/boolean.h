@@ -29,4 +29,12 @@ class BooleanError : public std::runtime_error {
 // std::invalid_argument for open bodies.
 Body boolean(BooleanOperation operation, const Body& a, const Body& b);
 
+// The part of a closed body on the inner side of an open sheet, where its normals look away from, or on the outer one
+// (Golovanov 2016, 6.4); pieces of the sheet become faces. Throws BooleanError as above, and where the sheet does not
+// divide the body: its border lies inside.
+Body cut(const Body& body, const Body& sheet, bool keep_inner);
+
+// Turned inside out: every normal looks the other way.
+Body inverted(const Body& body);
+
 }  // namespace lekalo::geometry

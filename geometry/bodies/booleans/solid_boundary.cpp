@@ -15,18 +15,6 @@ namespace {
 
 BodyPtr made(const Csg& solid);
 
-// A half-space as far as what is within the box can tell: a box on its plane.
-Body block_behind(const Frame& plane, const Affine& map, const Box3& box) {
-  const Vec3 normal = glm::normalize(map.normal(plane.z));
-  const Frame frame = frame_about(map.point(plane.origin), normal);
-  const double reach = 1.618 * box.diameter();
-  const Vec3 center = frame.to_local_point(box.center());
-  Frame corner = frame;
-  const double depth = reach - std::min(0.0, center.z) + std::abs(center.z);
-  corner.origin = frame.point({center.x - reach, center.y - reach, -depth});
-  return box.bounded() ? geometry::box(corner, {2 * reach, 2 * reach, depth}) : Body();
-}
-
 BodyPtr body_of(const ShapePtr& shape, const Affine& map, const Box3& within) {
   if (const auto* body = dynamic_cast<const BodyShape*>(shape.get()))
     return std::make_shared<Body>(transformed(*body->body(), map));
@@ -37,7 +25,7 @@ BodyPtr body_of(const ShapePtr& shape, const Affine& map, const Box3& within) {
   if (const auto* half = dynamic_cast<const HalfSpaceShape*>(shape.get())) {
     if (!within.bounded() || within.empty())
       throw std::invalid_argument("a half-space without anything bounded beside it has no boundary");
-    Body block = block_behind(half->frame(), map, within);
+    Body block = block_behind(map.point(half->frame().origin), map.normal(half->frame().z), within);
     for (Face& face : block.faces) face.origin = {"", "plane"};
     return std::make_shared<Body>(std::move(block));
   }
@@ -76,6 +64,15 @@ BodyPtr made(const Csg& solid) {
 }
 
 }  // namespace
+
+Body block_behind(const Vec3& through, const Vec3& normal, const Box3& box) {
+  Frame frame = frame_about(through, glm::normalize(normal));
+  const double reach = 1.618 * std::max(box.diameter(), glm::length(box.center() - through));
+  const Vec3 center = frame.to_local_point(box.center());
+  const double depth = reach + 2 * std::abs(center.z);
+  frame.origin = frame.point({center.x - reach, center.y - reach, -depth});
+  return geometry::box(frame, {2 * reach, 2 * reach, depth});
+}
 
 bool has_boundary(const Shape& shape) {
   if (dynamic_cast<const BodyShape*>(&shape) || dynamic_cast<const HalfSpaceShape*>(&shape)) return true;

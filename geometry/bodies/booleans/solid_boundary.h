@@ -15,6 +15,10 @@ bool has_boundary(const Shape& shape);
 // std::invalid_argument where has_boundary() is false or an unbounded half-space is left.
 BodyPtr boundary_of(const ShapePtr& shape);
 
+// What lies behind a plane, which its normal looks away from, as far as a box reaches: a block, its face on the plane
+// called z_max.
+Body block_behind(const Vec3& through, const Vec3& normal, const Box3& box);
+
 // Types of scenes that make such solids.
 bool makes_boundary(std::string_view type);
 
