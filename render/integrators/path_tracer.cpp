@@ -5,6 +5,7 @@
 
 #include "render/integrators/caustics.h"
 #include "render/integrators/dispersion.h"
+#include "render/integrators/phase_function.h"
 #include "render/integrators/phong_model.h"
 #include "render/lobes/bsdf.h"
 #include "render/materials/textured_color.h"
@@ -377,20 +378,6 @@ void PathTracer::take_one_wavelength() {
   one_wavelength_ = true;
 }
 
-// Henyey and Greenstein's phase function, 1/sr, by the cosine of the angle that light is turned by.
-double phase(double cosine, double g) {
-  const double width = 1 + g * g - 2 * g * cosine;
-  return (1 - g * g) / (4 * kPi * width * std::sqrt(width));
-}
-
-// A direction of that density about `along`.
-Vec3 phase_direction(const Vec3& along, double g, const Vec2& square) {
-  const double part = (1 - g * g) / (1 - g + 2 * g * square.x);
-  const double cosine = std::fabs(g) < 1e-3 ? 1 - 2 * square.x : (1 + g * g - part * part) / (2 * g);
-  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), angle = geometry::kTwoPi * square.y;
-  return geometry::frame_about(Vec3(0), along).direction({sine * std::cos(angle), sine * std::sin(angle), cosine});
-}
-
 // A random walk in a substance that scatters. The way to the next scattering is drawn for one of the colours, by their
 // shares, and weighted by its density for all of them; false: it lies behind `end`, and the light that gets there is
 // counted. Lamps are asked where they are seen straight through the substance's boundary.
@@ -415,7 +402,7 @@ bool PathTracer::is_scattered(Ray& ray, double end, const Medium& medium, const 
   share_ *= medium.scattering;
   const Vec3 at = ray.at(way);
   const Vec3 direction = phase_direction(ray.direction, medium.forward, square);
-  ++bounces_;
+  bounces_ = std::max(bounces_, 2);  // no direct light; however long the walk, it is none over more surfaces
   const bool asks = medium.index == 1;
   if (asks) add_lamp_in_medium(at, ray.direction, medium, media);
   ++scatterings_;
