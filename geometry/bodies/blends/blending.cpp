@@ -36,8 +36,10 @@ Box3 sampled_box(const Curve& image) {
 class Blending {
  public:
   Blending(const Body& body, const std::vector<BlendRequest>& requests, Corners corners, const Beyonds& beyonds)
-      : body_(body), corners_(corners), surgery_{body, rules_, BodyDraft(body), bounds(body).diameter(), {}, {}, {},
-                                                 {},   {}} {
+      : body_(body),
+        corners_(corners),
+        beyonds_(beyonds),
+        surgery_{body, rules_, BodyDraft(body), bounds(body).diameter(), {}, {}, {}, {}, {}} {
     const std::vector<BlendEdge> edges = blend_edges(body, requests, rules_);
     for (size_t i = 0; i < edges.size(); ++i) surgery_.blend_of[edges[i].edge] = i;
     for (const auto& [edge, beyond] : beyonds_) {
@@ -198,7 +200,8 @@ class Blending {
     const SurfacePtr& surface = surgery_.draft.faces[face].surface;
     const auto blended = surgery_.blend_of.find(use.edge);
     if (blended != surgery_.blend_of.end()) {
-      opened = opened || beyonds_.count(use.edge) > 0;
+      const auto beyond = beyonds_.find(use.edge);
+      opened = opened || (beyond != beyonds_.end() && beyond->second.side == (use.forward ? 1 : 0));
       return pieces_on(blended->second, use.forward ? 1 : 0, face, use.forward, use.image);
     }
     const auto rim = rims_.find(use.edge);
@@ -435,9 +438,9 @@ class Blending {
   const Body& body_;
   std::vector<BlendRule> rules_;
   Corners corners_;
+  Beyonds beyonds_;
   Surgery surgery_;
   std::map<int, CurvePtr> whole_;
-  Beyonds beyonds_;
   std::map<int, int> rims_;                                  // the blended edge beside each
   std::vector<std::array<std::vector<Border>, 2>> borders_;  // right, left: in the direction of the edge
 };
@@ -467,22 +470,27 @@ Stage blended_at_once(const Body& body, const std::vector<BlendRequest>& request
   Beyonds beyonds;
   std::vector<int> numbers(body.edges.size());
   for (size_t e = 0; e < numbers.size(); ++e) numbers[e] = static_cast<int>(e);
-  for (int k = 0;; ++k) {
-    Blending blending(*now, asked, corners, beyonds);
-    const auto overrun = k < kMostOverruns ? blending.overrun() : std::nullopt;
-    if (!overrun) {
-      Stage stage = blending.run();
-      std::vector<int> edges;
-      for (const int e : numbers) edges.push_back(e < 0 ? -1 : stage.edges[e]);
-      stage.edges = std::move(edges);
-      return stage;
+  try {
+    for (int k = 0;; ++k) {
+      Blending blending(*now, asked, corners, beyonds);
+      const auto overrun = k < kMostOverruns ? blending.overrun() : std::nullopt;
+      if (!overrun) {
+        Stage stage = blending.run();
+        std::vector<int> edges;
+        for (const int e : numbers) edges.push_back(e < 0 ? -1 : stage.edges[e]);
+        stage.edges = std::move(edges);
+        return stage;
+      }
+      Divided parts = divided(*now, overrun->first, overrun->second);
+      renumber(parts, asked, beyonds);
+      beyonds[parts.blended] = parts.beyond;
+      for (int& e : numbers) e = e < 0 ? -1 : parts.parts[e].front();
+      divided_body = std::move(parts.body);
+      now = &divided_body;
     }
-    Divided parts = divided(*now, overrun->first, overrun->second);
-    renumber(parts, asked, beyonds);
-    beyonds[parts.blended] = parts.beyond;
-    for (int& e : numbers) e = e < 0 ? -1 : parts.parts[e].front();
-    divided_body = std::move(parts.body);
-    now = &divided_body;
+  } catch (BlendError& error) {
+    error.name = name_of_edge(*now, error.edge);
+    throw;
   }
 }
 

@@ -66,7 +66,8 @@ BodyPtr made(const Body& body, const std::vector<BlendRequest>& requests, Corner
   try {
     return std::make_shared<Body>(blended(body, requests, corners));
   } catch (const BlendError& error) {
-    std::string message = fmt::format("{}: {}", error.name, error.what());
+    std::string message =
+        fmt::format("{}: {}", error.name.empty() ? name_of_edge(body, error.edge) : error.name, error.what());
     std::string hint = "a smaller size, or other edges with it";
     for (size_t r = 0; r < requests.size() && error.too_large; ++r) {
       const BlendRule& rule = requests[r].rule;

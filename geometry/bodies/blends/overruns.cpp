@@ -102,6 +102,12 @@ double parameter_at(const Curve& curve, const BlendBand& band, double s) {
   return t;
 }
 
+// Images have the parameters of their edges but for rounding.
+CurvePtr part_of(const CurvePtr& curve, double from, double to) {
+  const Interval domain = curve->domain();
+  return std::make_shared<CurvePart>(curve, Interval(domain.clamp(from), domain.clamp(to)));
+}
+
 // An edge in three parts, with their vertices.
 struct Parts {
   std::vector<int> edges;
@@ -119,7 +125,7 @@ Parts divide(BodyDraft& draft, int e, const std::array<double, 2>& at, const std
   const std::array<double, 4> ends{old.curve->domain().lo, t[0], t[1], old.curve->domain().hi};
   const std::array<int, 4> vertices{old.start, parts.vertices[0], parts.vertices[1], old.end};
   for (int k = 0; k < 3; ++k) {
-    const CurvePtr curve = std::make_shared<CurvePart>(old.curve, Interval(ends[k], ends[k + 1]));
+    const CurvePtr curve = part_of(old.curve, ends[k], ends[k + 1]);
     parts.edges.push_back(draft.add_edge(curve, vertices[k], vertices[k + 1], old.origin, old.kind));
     draft.edges.back().tolerance = old.tolerance;
   }
@@ -133,8 +139,7 @@ Parts divide(BodyDraft& draft, int e, const std::array<double, 2>& at, const std
         }
         for (int k = 0; k < 3; ++k) {
           const int part = use.forward ? k : 2 - k;
-          uses.push_back({parts.edges[part], use.forward,
-                          std::make_shared<CurvePart>(use.image, Interval(ends[part], ends[part + 1]))});
+          uses.push_back({parts.edges[part], use.forward, part_of(use.image, ends[part], ends[part + 1])});
         }
       }
       loop = std::move(uses);

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "geometry/bodies/blends/blending.h"
-#include "geometry/bodies/topology/entity_names.h"
 
 namespace lekalo::geometry {
 
@@ -93,19 +92,14 @@ void number_equals(std::vector<Entity>& entities, const std::set<std::string>& r
 Body blended(const Body& body, const std::vector<BlendRequest>& requests, Corners corners) {
   Stage stage{body, {}};
   std::vector<BlendRequest> left = requests;
-  try {
-    for (;;) {
-      const std::set<int> first = first_stage(stage.body, left, corners);
-      if (first.empty()) break;
-      const std::vector<BlendRequest> later = part_of(left, first, false);
-      stage = blended_at_once(stage.body, part_of(left, first, true), corners);
-      left = renumbered(later, stage.edges);
-    }
-    stage = blended_at_once(stage.body, left, corners);
-  } catch (BlendError& error) {
-    error.name = name_of_edge(stage.body, error.edge);
-    throw;
+  for (;;) {
+    const std::set<int> first = first_stage(stage.body, left, corners);
+    if (first.empty()) break;
+    const std::vector<BlendRequest> later = part_of(left, first, false);
+    stage = blended_at_once(stage.body, part_of(left, first, true), corners);
+    left = renumbered(later, stage.edges);
   }
+  stage = blended_at_once(stage.body, left, corners);
   std::set<std::string> roles;
   for (const BlendRequest& one : requests) roles.insert(one.rule.role);
   number_equals(stage.body.faces, roles);
