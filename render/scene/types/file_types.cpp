@@ -11,11 +11,13 @@
   X(triangulation_type)      \
   X(frame_net_type)          \
   X(model_type)              \
-  X(control_triangles_type)
+  X(control_triangles_type)  \
+  X(surfel_net_type)
 
 namespace lekalo::geometry {
 
 TypeDeclaration control_triangles_type();
+TypeDeclaration surfel_net_type();
 
 }  // namespace lekalo::geometry
 
