@@ -48,6 +48,23 @@ class Schema(unittest.TestCase):
         jsonschema.Draft202012Validator.check_schema(self.schema)
         jsonschema.Draft202012Validator.check_schema(self.suite_schema)
 
+    def test_defaults_and_descriptions(self):
+        """For editors: every field says what it is and its default, every type where more stands."""
+        circle = self.schema["$defs"]["curve.circle"]
+        self.assertIn("(docs/reference/curves.md#circle)", circle["markdownDescription"])
+        self.assertTrue((ROOT / "docs/reference/curves.md").exists())
+        fields = [(name, field) for definition in self.schema["$defs"].values() if "markdownDescription" in definition
+                  for name, field in definition["properties"].items() if "description" in field and name not in ("type", "let")]
+        self.assertGreater(len(fields), 500)
+        defaults = [(name, field) for name, field in fields if "default" in field]
+        self.assertGreater(len(defaults), 200)
+        for name, field in defaults:
+            self.assertIn("; default ", field["description"], name)
+            self.assertRegex(field["markdownDescription"], "default `.+`$", name)
+        samples = self.schema["properties"]["image"]["properties"]["samples"]
+        self.assertEqual(samples["default"], 16)
+        self.assertIn("default `16`", samples["markdownDescription"])
+
     def test_every_scene_validates(self):
         scenes = [path for folder in ("scenes", "references", "examples", "tests/images", "tests/render/scene/examples") for path in sorted((ROOT / folder).rglob("*.yaml"))
                   if path.parent.name not in ("figures", "drawing") or path.name != "index.yaml"]

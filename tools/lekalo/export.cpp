@@ -9,14 +9,14 @@
 #include <set>
 
 #include "command.h"
-#include "geometry/tessellation/tessellate.h"
+#include "export.h"
 #include "geometry/transformed.h"
 #include "measure.h"
+#include "mesh_collection.h"
 #include "picture.h"
 #include "render/image/atomic_file.h"
 #include "render/image/display.h"
 #include "render/mesh_files/mesh_files.h"
-#include "render/model/mesh_tolerance.h"
 #include "render/pov/pov_export.h"
 #include "render/step/step_export.h"
 
@@ -27,140 +27,9 @@ namespace {
 using geometry::Affine;
 using geometry::Mesh;
 
-struct Options {
-  SceneOptions scene;
-  std::vector<std::string> names;
-  std::string format, output;
-  double sag = 0;
+struct Options : ExportOptions {
   double tolerance = 1e-9;
   render::PovOptions pov;
-  bool quiet = false;
-};
-
-// Meshes collected into one; faces are numbered on, so that a file keeps them apart.
-class Collection {
- public:
-  explicit Collection(double sag) : sag_(sag) {}
-
-  // The object says how the shape is to be meshed; its own transform is in to_world.
-  void add_shape(const render::Object& object, const Affine& to_world) {
-    const render::Entity& entity = object.shape;
-    const std::string& name = object.name;
-    const auto tolerance = [&] { return tolerance_of(object, to_world); };
-    if (const auto* surface = std::get_if<geometry::SurfacePtr>(&entity)) {
-      add_surface(**surface, to_world, tolerance(), name);
-    } else if (const auto* set = std::get_if<render::SurfaceSet>(&entity)) {
-      for (const geometry::SurfacePtr& one : *set) add_surface(*one, to_world, tolerance(), name);
-    } else if (const auto* curve = std::get_if<geometry::CurvePtr>(&entity)) {
-      add_curve(**curve, to_world, tolerance(), name);
-    } else if (const auto* body = std::get_if<geometry::BodyPtr>(&entity)) {
-      append(tessellate(**body, tolerance()), to_world);
-    } else if (const auto* mesh = std::get_if<geometry::MeshPtr>(&entity)) {
-      append(**mesh, to_world);
-    } else if (const auto* group = std::get_if<render::GroupPtr>(&entity)) {
-      for (const render::Object& object : (*group)->objects) add(object, to_world);
-    } else if (std::holds_alternative<geometry::ShapePtr>(entity)) {
-      left_out_.insert(fmt::format("'{}' is met by rays only and has no triangles", name));
-    } else {
-      left_out_.insert(fmt::format("'{}' is a point and has no triangles", name));
-    }
-  }
-
-  void add(const render::Object& object, const Affine& to_world) {
-    if (!object.clips.empty())
-      left_out_.insert(fmt::format("'{}' is written whole: its clip planes are not applied", object.name));
-    add_shape(object, to_world * object.transform);
-  }
-
-  void add(const std::string& name, const render::Entity& entity) {
-    render::Object object;
-    object.name = name;
-    object.shape = entity;
-    add_shape(object, Affine());
-  }
-
-  // Corners without normals or parameters get them where others have some: a file has them for all or none.
-  Mesh finish() {
-    if (with_normals_ && without_normals_) {
-      for (Mesh::Triangle& triangle : all_.triangles) {
-        if (triangle.normal[0] >= 0) continue;
-        const auto& p = triangle.point;
-        const geometry::Vec3 area =
-            glm::cross(all_.points[p[1]] - all_.points[p[0]], all_.points[p[2]] - all_.points[p[0]]);
-        const double length = glm::length(area);
-        triangle.normal.fill(static_cast<int32_t>(all_.normals.size()));
-        all_.normals.push_back(length > 0 ? area / length : geometry::Vec3(0, 0, 1));
-      }
-    }
-    if (without_parameters_) {
-      all_.parameters.clear();
-      for (Mesh::Triangle& triangle : all_.triangles) triangle.parameter.fill(-1);
-    }
-    return std::move(all_);
-  }
-
-  // The polygons of curves.
-  const std::vector<std::vector<geometry::Vec3>>& lines() const { return lines_; }
-
-  const std::set<std::string>& left_out() const { return left_out_; }
-
- private:
-  geometry::TessellationTolerance tolerance_of(render::Object object, const Affine& to_world) const {
-    if (sag_ > 0) object.sag = sag_;
-    auto result = render::mesh_tolerance(object, to_world, nullptr);
-    // What another program shades smooth with the normals of the file needs no finer steps.
-    if (object.mesh_angle == 0 && !std::holds_alternative<geometry::CurvePtr>(object.shape))
-      result.angle = geometry::TessellationTolerance().angle;
-    return result;
-  }
-
-  void add_curve(const geometry::Curve& curve, const Affine& to_world, const geometry::TessellationTolerance& tolerance,
-                 const std::string& name) {
-    if (!(curve.domain().width() < geometry::kInfinity)) {
-      left_out_.insert(fmt::format("'{}' is left out: it has no ends", name));
-      return;
-    }
-    lines_.emplace_back();
-    for (const double t : polygon_parameters(curve, tolerance)) lines_.back().push_back(to_world.point(curve.point(t)));
-  }
-
-  void add_surface(const geometry::Surface& surface, const Affine& to_world,
-                   const geometry::TessellationTolerance& tolerance, const std::string& name) {
-    if (surface.bounded())
-      append(tessellate(surface, tolerance), to_world);
-    else
-      left_out_.insert(fmt::format("'{}' is left out: it has no bounds; give it a domain", name));
-  }
-
-  void append(const Mesh& given, const Affine& to_world) {
-    const Mesh part = to_world.is_identity() ? given : transformed(given, to_world);
-    int32_t faces = 0;
-    const auto shift = [](std::array<int32_t, 3>& index, size_t by) {
-      for (int32_t& i : index)
-        if (i >= 0) i += static_cast<int32_t>(by);
-    };
-    for (Mesh::Triangle triangle : part.triangles) {
-      shift(triangle.point, all_.points.size());
-      shift(triangle.normal, all_.normals.size());
-      shift(triangle.parameter, all_.parameters.size());
-      faces = std::max(faces, triangle.face + 1);
-      triangle.face += faces_;
-      all_.triangles.push_back(triangle);
-    }
-    faces_ += faces;
-    (part.normals.empty() ? without_normals_ : with_normals_) = true;
-    without_parameters_ = without_parameters_ || part.parameters.empty();
-    all_.points.insert(all_.points.end(), part.points.begin(), part.points.end());
-    all_.normals.insert(all_.normals.end(), part.normals.begin(), part.normals.end());
-    all_.parameters.insert(all_.parameters.end(), part.parameters.begin(), part.parameters.end());
-  }
-
-  double sag_;
-  Mesh all_;
-  std::vector<std::vector<geometry::Vec3>> lines_;
-  int32_t faces_ = 0;
-  bool with_normals_ = false, without_normals_ = false, without_parameters_ = false;
-  std::set<std::string> left_out_;
 };
 
 int export_pov(const Options& options, const std::string& output) {
@@ -258,7 +127,8 @@ int export_step(const Options& options, const std::string& output) {
 int run(const Options& options) {
   std::string output = options.output;
   if (output.empty()) {
-    if (options.format.empty()) throw UsageError("export takes -o FILE, or --format obj|ply|stl|json|step|pov");
+    if (options.format.empty())
+      throw UsageError("export takes -o FILE, or --format obj|ply|stl|gltf|glb|html|json|step|pov");
     output = std::filesystem::path(options.scene.file).stem().string() + "." + options.format;
   }
   if (options.format == "json" || (options.format.empty() && output.ends_with(".json")))
@@ -267,15 +137,18 @@ int run(const Options& options) {
     return export_pov(options, output);
   if (options.format == "step" || (options.format.empty() && (output.ends_with(".step") || output.ends_with(".stp"))))
     return export_step(options, output);
+  for (const char* format : {"gltf", "glb", "html"})
+    if (options.format == format || (options.format.empty() && output.ends_with(std::string(".") + format)))
+      return export_gltf(options, format, output);
   render::MeshFormat format;
   try {
     format = render::mesh_format(options.format.empty() ? output : "mesh." + options.format);
   } catch (const render::MeshFileError& error) {
-    throw UsageError(fmt::format("{}; or give --format obj|ply|stl|json|step|pov", error.what()));
+    throw UsageError(fmt::format("{}; or give --format obj|ply|stl|gltf|glb|html|json|step|pov", error.what()));
   }
   const render::LoadedScene scene = options.scene.load();
   check_inputs_stay(scene, {output});
-  Collection collection(options.sag);
+  MeshCollection collection(options.sag);
   if (options.names.empty())
     for (const render::Object& object : scene.model->objects) collection.add(object, Affine());
   for (const std::string& name : options.names) collection.add(name, find_geometry(scene, name));
@@ -300,14 +173,16 @@ int run(const Options& options) {
 void add_export(CLI::App& app, Action& action) {
   auto* sub =
       app.add_subcommand("export",
-                         "Write what a scene shows as triangles (OBJ, PLY, STL) and polylines (OBJ), curves and "
-                         "surfaces as NURBS (JSON), boundary representations (STEP), or the scene for POV-Ray");
+                         "Write what a scene shows as triangles (OBJ, PLY, STL, glTF) and polylines (OBJ, glTF), "
+                         "curves and surfaces as NURBS (JSON), boundary representations (STEP), the scene for POV-Ray, "
+                         "or a web page (HTML)");
   sub->footer(
       "Examples:\n"
       "  lekalo export teapot.yaml -o teapot.obj --sag 0.001\n"
       "  lekalo export plate.yaml plate --format stl\n"
       "  lekalo export curves.yaml rim -o rim.json\n"
       "  lekalo export plate.yaml -o plate.step\n"
+      "  lekalo export ring.yaml -o ring.html --sag 0.001\n"
       "  lekalo export ring.yaml -o ring.pov && povray +Iring.pov +FE -A\n\n"
       "Without names everything that the scene's objects show is written, moved as they are. Triangles and "
       "the\n"
@@ -317,13 +192,14 @@ void add_export(CLI::App& app, Action& action) {
       "curves and surfaces as NURBS and Bezier pieces, as 'lekalo measure --nurbs --json' prints them: exactly, or\n"
       "fitted to a billionth of a curve's size, to 1e-12 of a surface's. STEP has bodies, surfaces, curves and points\n"
       "exactly where it has such (planes, cylinders, cones, spheres, tori, lines, circles, ellipses, NURBS), else\n"
-      "fitted to --tolerance; lengths in info.unit.");
+      "fitted to --tolerance; lengths in info.unit. glTF (gltf, glb) has an\n"
+      "object a node, materials, and the lines that pictures show; html is a page that shows it and needs no others.");
   auto options = std::make_shared<Options>();
   options->scene.add_to(*sub);
   sub->add_option("names", options->names, "geometry to write, in place of the objects")->type_name("NAME");
   sub->add_option("--format", options->format, "what to write; else the output's extension decides")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"obj", "ply", "stl", "json", "step", "pov"}));
+      ->check(CLI::IsMember({"obj", "ply", "stl", "gltf", "glb", "html", "json", "step", "pov"}));
   sub->add_option("-o,--output", options->output, "file to write; without it SCENE.FORMAT here")->type_name("FILE");
   sub->add_option("--sag", options->sag, "largest distance of a triangle from its surface, of a chord from its curve")
       ->type_name("LENGTH")

@@ -51,6 +51,17 @@ Json number_of(const FieldType& type) {
   return number;
 }
 
+// Numbers, words and lists as an editor writes them into a scene.
+Json default_of(const std::string& text) {
+  const Json value = Json::parse(text, nullptr, false);
+  return value.is_number() || value.is_boolean() || value.is_array() ? value : Json(text);
+}
+
+// The page of the reference, beside the other documents, and the command that says the same.
+std::string link_to(const TypeDeclaration& type) {
+  return fmt::format("[{0}](docs/reference/{1}.md#{0}), `lekalo types {0}`", type.name, plural(type.category));
+}
+
 std::string category_key(std::span<const Category> categories) {
   std::string key = "any";
   for (const Category category : categories) key.append("_").append(geometry::name(category));
@@ -286,8 +297,13 @@ Json SchemaWriter::properties(const std::vector<Field>& fields, std::vector<std:
   for (const Field& field : fields) {
     Json one = value(field.type);
     one["description"] = fmt::format("{} ({})", field.description, value_text(field.type));
-    if (!field.default_text.empty())
+    one["markdownDescription"] = fmt::format("{}  \n*{}*", field.description, value_text(field.type));
+    if (!field.default_text.empty()) {
       one["description"] = one["description"].get<std::string>() + "; default " + field.default_text;
+      one["markdownDescription"] =
+          fmt::format("{}, default `{}`", one["markdownDescription"].get<std::string>(), field.default_text);
+      one["default"] = default_of(field.default_text);
+    }
     if (field.type.kind == Kind::frame) {
       all["center"] = ref("place");
       all["normal"] = ref("direction");
@@ -321,8 +337,11 @@ Json SchemaWriter::type_definition(const TypeDeclaration& type) {
   if (takes_abbreviations(type.fields))
     all["let"] = {{"type", "object"}, {"additionalProperties", ref("formula")}, {"description", kLetDescription}};
   if (!is_implicit(type.category) && type.category != Category::helper) all["type"] = {{"const", type.name}};
-  Json map = {
-      {"description", type.description}, {"type", "object"}, {"properties", all}, {"additionalProperties", false}};
+  Json map = {{"description", type.description},
+              {"markdownDescription", fmt::format("{}\n\n{}", type.description, link_to(type))},
+              {"type", "object"},
+              {"properties", all},
+              {"additionalProperties", false}};
   // What a thing is like may bring the fields that it needs.
   if (!required.empty() && named)
     map["anyOf"] = Json::array({{{"required", required}}, {{"required", {"like"}}}});
@@ -351,7 +370,9 @@ Json SchemaWriter::thing(const std::vector<Category>& categories) {
   for (const TypeDeclaration& type : all_types()) {
     if (std::find(categories.begin(), categories.end(), type.category) == categories.end()) continue;
     const Json defined = definition(type);
-    names.push_back({{"const", type.name}, {"description", type.description}});
+    names.push_back({{"const", type.name},
+                     {"description", type.description},
+                     {"markdownDescription", fmt::format("{}\n\n{}", type.description, link_to(type))}});
     cases.push_back(
         {{"if", {{"properties", {{"type", {{"const", type.name}}}}}, {"required", {"type"}}}}, {"then", defined}});
   }
