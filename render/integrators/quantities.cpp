@@ -9,6 +9,7 @@
 
 #include "geometry/expression/expression.h"
 #include "geometry/queries/closest/closest_point.h"
+#include "geometry/queries/differential/stretch.h"
 #include "geometry/spatial/nearest_points.h"
 
 namespace lekalo::render {
@@ -150,6 +151,20 @@ Quantity distance_to(const CurvePtr& other) {
   return q;
 }
 
+// Of laying the surface on another one of the same parameters: that one of the principal strains that is larger.
+Quantity strain_to(const SurfacePtr& other) {
+  Quantity q;
+  q.has_sign = true;
+  q.needs_parameters = true;
+  q.value = [other](const AnalysedPlace& at) -> Value {
+    if (!at.surface || !other->domain().contains(at.point.u, at.point.v)) return std::nullopt;
+    const auto [a, b] = principal_stretches(*at.surface, *other, at.point.u, at.point.v);
+    const double strain_a = Stretch{a}.strain(), strain_b = Stretch{b}.strain();
+    return std::abs(strain_a) > std::abs(strain_b) ? strain_a : strain_b;
+  };
+  return q;
+}
+
 // How high the nearest of given points lies over the tangent plane, on the side of the normal.
 Quantity deviation_of(const std::vector<Vec3>& points) {
   const auto tree = std::make_shared<const NearestPoints>(points);
@@ -205,6 +220,12 @@ Quantity named_quantity(const std::string& name, const Fields& f) {
     if (!f.has("to")) throw FieldError("quantity", "a distance needs the surface 'to' which it is measured");
     return f.holds<CurvePtr>("to") ? distance_to(f.curve("to")) : distance_to(f.surface("to"));
   }
+  if (name == "strain") {
+    if (!f.has("to") || f.holds<CurvePtr>("to"))
+      throw FieldError("quantity", "a strain needs the surface 'to' which this one is laid on",
+                       "one of the same parameters, as a development and its surface");
+    return strain_to(f.surface("to"));
+  }
   if (name == "deviation") {
     if (!f.has("points")) throw FieldError("quantity", "a deviation needs the measured 'points'");
     return deviation_of(f.points("points"));
@@ -221,9 +242,10 @@ const std::vector<std::pair<const char*, std::vector<std::string>>> kOnlyOf = {
     {"ceiling", {"reflection_lines"}},
     {"spacing", {"reflection_lines"}},
     {"cells", {"parameters"}},
-    {"to", {"distance"}},
+    {"to", {"distance", "strain"}},
     {"points", {"deviation"}}};
 
+constexpr const char* kStrainText = "of strain: the surface on which this one is laid";
 constexpr const char* kFormulaText =
     "any other quantity: of the place x, y, z, the parameters u, v, the curvatures K, H, k1, k2";
 
@@ -252,9 +274,10 @@ Interval range_of(std::vector<double> values, bool has_sign) {
 
 void add_quantity_of_place(TypeDeclaration& type) {
   type.field("quantity",
-             choice({"gaussian_curvature", "mean_curvature", "k1", "k2", "largest_curvature", "draft_angle"}),
+             choice({"gaussian_curvature", "mean_curvature", "k1", "k2", "largest_curvature", "draft_angle", "strain"}),
              "as of the integrator `analysis`", "gaussian_curvature")
       .optional("formula", formula(kVariables), kFormulaText)
+      .optional("to", reference({Category::surface}), kStrainText)
       .field("direction", direction(), "of draft_angle: pull of a mould", "z");
 }
 
@@ -284,18 +307,20 @@ Interval range_on(const Quantity& quantity, const std::vector<SurfacePtr>& surfa
 }
 
 void add_quantity_fields(TypeDeclaration& type) {
-  type.field("quantity",
-             choice({"gaussian_curvature", "mean_curvature", "k1", "k2", "largest_curvature", "normals", "draft_angle",
-                     "zebra", "isophotes", "reflection_lines", "parameters", "distance", "deviation"}),
-             "k1 >= k2: principal curvatures, signed by the surface's normal, that of a ball seen from outside is "
-             "negative; largest_curvature: the larger of |k1|, |k2|; normals: their coordinates as red, green and "
-             "blue; draft_angle: of the "
-             "tangent plane with `direction`, in degrees; zebra: stripes about `direction`, mirrored; isophotes: "
-             "stripes of equal angle between the "
-             "normal and `direction`; reflection_lines: parallel lamps, mirrored; parameters: a checker of u and v; "
-             "distance: from the surface or curve `to`, of "
-             "a surface positive on the side of its normal; deviation: of the nearest of `points`, along the normal",
-             "gaussian_curvature")
+  type.field(
+          "quantity",
+          choice({"gaussian_curvature", "mean_curvature", "k1", "k2", "largest_curvature", "normals", "draft_angle",
+                  "zebra", "isophotes", "reflection_lines", "parameters", "distance", "strain", "deviation"}),
+          "k1 >= k2: principal curvatures, signed by the surface's normal, that of a ball seen from outside is "
+          "negative; largest_curvature: the larger of |k1|, |k2|; normals: their coordinates as red, green and "
+          "blue; draft_angle: of the "
+          "tangent plane with `direction`, in degrees; zebra: stripes about `direction`, mirrored; isophotes: "
+          "stripes of equal angle between the "
+          "normal and `direction`; reflection_lines: parallel lamps, mirrored; parameters: a checker of u and v; "
+          "distance: from the surface or curve `to`, of "
+          "a surface positive on the side of its normal; strain: of laying the surface on that of the same parameters "
+          "`to`, the larger of the principal ones; deviation: of the nearest of `points`, along the normal",
+          "gaussian_curvature")
       .optional("formula", formula(kVariables), kFormulaText)
       .field("direction", direction(), "of zebra, isophotes, draft_angle: axis of the stripes, light, pull of a mould",
              "z")
@@ -304,7 +329,8 @@ void add_quantity_fields(TypeDeclaration& type) {
       .field("ceiling", direction(), "of reflection_lines: normal of the plane in which the lamps lie", "z")
       .field("spacing", length().positive(), "of reflection_lines: from one lamp to the next", "1")
       .field("cells", integer().between(1, 10000).for_each_direction(), "of parameters: squares over the domain", "10")
-      .optional("to", reference({Category::surface, Category::curve}), "of distance: the other surface, or a curve")
+      .optional("to", reference({Category::surface, Category::curve}),
+                "of distance and strain: the other surface, or of distance a curve")
       .optional("points", points().count(1), "of deviation: measured points");
 }
 

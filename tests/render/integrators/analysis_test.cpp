@@ -166,6 +166,20 @@ TEST(Quantities, DistanceAndDeviation) {
   EXPECT_THROW(quantity("deviation", {}), geometry::FieldError);
 }
 
+// Tori on tori: along the small circle they stretch by the ratio of their radii, along the large one by less.
+TEST(Quantities, Strain) {
+  const auto on = [](double major, double minor) {
+    return quantity(
+        "strain",
+        {{"to", geometry::SurfacePtr(std::make_shared<geometry::TorusSurface>(geometry::Frame(), major, minor))}});
+  };
+  EXPECT_NEAR(value_on(on(6, 2), *torus(), 0.7, 2), 1.5, 1e-12);
+  EXPECT_NEAR(value_on(on(3, 1.1), *torus(), 0.7, 0), 0.5 * (1.1 * 1.1 - 1), 1e-12);
+  EXPECT_NEAR(value_on(on(3, 0.9), *torus(), 0.7, 0), 0.5 * (0.9 * 0.9 - 1), 1e-12);
+  EXPECT_TRUE(std::isnan(value_at(on(3, 1), {0, 0, 0}, {0, 0, 1})));  // nothing with parameters
+  EXPECT_THROW(quantity("strain", {}), geometry::FieldError);
+}
+
 TEST(RangeOf, OutermostValuesAreLeftOut) {
   std::vector<double> values;
   for (int i = 0; i <= 1000; ++i) values.push_back(0.001 * i);
