@@ -51,9 +51,9 @@ GltfMaterial material_of(const render::Material& material, std::string name) {
     result.index = clear->index;
     result.roughness = clear->roughness.at(point);
   } else if (const auto* many = std::any_cast<render::Principled>(&made)) {
-    result.metalness = many->base_metalness;
+    result.metalness = many->base_metalness.at(point);
     result.roughness = many->specular_roughness.at(point);
-    result.transmission = many->transmission_weight;
+    result.transmission = many->transmission_weight.at(point);
     result.index = many->specular_ior;
   }
   return result;

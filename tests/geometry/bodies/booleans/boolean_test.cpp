@@ -12,7 +12,7 @@
 #include "geometry/queries/closest/position.h"
 #include "geometry/queries/measures/mass_properties.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::boolean_test {
 namespace {
 
 constexpr BooleanOperation kUnite = BooleanOperation::unite, kIntersect = BooleanOperation::intersect,
@@ -256,4 +256,4 @@ TEST(Boolean, RandomPairs) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::boolean_test

@@ -7,7 +7,7 @@
 #include "geometry/queries/measures/mass_properties.h"
 #include "geometry/surfaces/analytic/plane.h"
 
-namespace lekalo::geometry {
+namespace lekalo::geometry::cut_test {
 namespace {
 
 double volume(const Body& body) { return measure(body).volume.value; }
@@ -48,4 +48,4 @@ TEST(InvertedBody, TwiceIsTheSame) {
 }
 
 }  // namespace
-}  // namespace lekalo::geometry
+}  // namespace lekalo::geometry::cut_test
