@@ -1,5 +1,8 @@
 #include "command.h"
 
+#include "geometry/bodies/booleans/solid_boundary.h"
+#include "geometry/shapes/csg/csg.h"
+
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -66,6 +69,22 @@ std::string shell_word(const std::string& text) {
   return quoted + "'";
 }
 
+render::Entity by_boundary(const render::Entity& entity, std::string* why_not) {
+  // Trees of thousands of leaves are for rays.
+  constexpr int kMaxLeaves = 64;
+  const auto* shape = std::get_if<geometry::ShapePtr>(&entity);
+  if (!shape || !geometry::has_boundary(**shape)) return entity;
+  const auto* moved = dynamic_cast<const geometry::TransformedShape*>(shape->get());
+  const auto* solid = dynamic_cast<const geometry::Csg*>(moved ? moved->original().get() : shape->get());
+  if (!solid || solid->leaf_count() > kMaxLeaves) return entity;
+  try {
+    return geometry::boundary_of(*shape);
+  } catch (const std::exception& error) {
+    if (why_not) *why_not = error.what();
+    return entity;
+  }
+}
+
 namespace {
 
 // part.end, part.edge.3, part.vertex.0: what of a body is called so; null where there is no such body.
@@ -74,7 +93,8 @@ const render::Entity* find_part(const render::LoadedScene& scene, const std::str
   for (size_t dot = name.rfind('.'); dot != std::string::npos && dot > 0; dot = name.rfind('.', dot - 1)) {
     const auto whole = scene.model->geometry.find(name.substr(0, dot));
     if (whole == scene.model->geometry.end()) continue;
-    const auto* shared = std::get_if<geometry::BodyPtr>(&whole->second);
+    const render::Entity entity = by_boundary(whole->second);
+    const auto* shared = std::get_if<geometry::BodyPtr>(&entity);
     if (!shared) return nullptr;
     const geometry::Body& body = **shared;
     const std::string rest = name.substr(dot + 1);

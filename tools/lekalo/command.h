@@ -42,6 +42,9 @@ std::string shell_word(const std::string& text);
 
 // What the scene's geometry calls `name`; throws UsageError with the nearest name if there is none.
 const render::Entity& find_geometry(const render::LoadedScene& scene, const std::string& name);
+// A solid that is put together, as its boundary where that can be made (geometry/bodies/booleans/solid_boundary.h); the
+// thing itself otherwise, and why.
+render::Entity by_boundary(const render::Entity& entity, std::string* why_not = nullptr);
 
 // A table of numbers named on the command line. Throws SceneError with the places of its errors.
 render::Table load_table(const std::string& path);

@@ -266,7 +266,7 @@ int run(const Options& options) {
         "evaluate takes --at T or --at U,V, --uv U,V, --table FILE, or of a curve --divided-difference T,T,..\n"
         "'lekalo evaluate --help' shows how to use it");
   const render::LoadedScene scene = options.scene.load();
-  const render::Entity& entity = find_geometry(scene, options.name);
+  const render::Entity entity = by_boundary(find_geometry(scene, options.name));
   const bool is_curve = std::holds_alternative<geometry::CurvePtr>(entity);
   if (!options.along.empty() && is_curve) throw UsageError("--along belongs to surfaces");
   if (!is_curve && (options.placement || !options.on.empty()))

@@ -106,9 +106,10 @@ int export_step(const Options& options, const std::string& output) {
     if (const auto* group = std::get_if<render::GroupPtr>(&object.shape))
       for (const render::Object& member : (*group)->objects) add(member, moved);
     else
-      shapes.push_back({object.name, object.shape, moved, color_of(object)});
+      shapes.push_back({object.name, by_boundary(object.shape), moved, color_of(object)});
   };
-  for (const std::string& name : options.names) shapes.push_back({name, find_geometry(scene, name), Affine(), {}});
+  for (const std::string& name : options.names)
+    shapes.push_back({name, by_boundary(find_geometry(scene, name)), Affine(), {}});
   if (options.names.empty())
     for (const render::Object& object : scene.model->objects) add(object, Affine());
   render::StepFile file;

@@ -74,7 +74,8 @@ int farm(const Options& options) {
     throw UsageError("--tiles needs -o FILE: parts are called after the picture");
   if (options.merge && (options.tiles == 0 || options.scheduler != "list"))
     throw UsageError("--merge is of 'farm list' with --tiles");
-  const size_t tasks = options.tiles > 0 ? static_cast<size_t>(options.tiles) : parse_frames(options.frames, "--frames").size();
+  const size_t tasks =
+      options.tiles > 0 ? static_cast<size_t>(options.tiles) : parse_frames(options.frames, "--frames").size();
   if (options.scheduler == "slurm")
     fmt::print("{}", slurm_script(options, tasks));
   else if (options.merge)

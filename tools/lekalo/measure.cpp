@@ -182,7 +182,14 @@ int run(const Options& options) {
     throw UsageError("--intersect stands once, or twice for the common points of three surfaces");
   if (options.nearest && options.to.empty()) throw UsageError("--nearest belongs to --to");
   const render::LoadedScene scene = render::load_scene(options.scene.file, options.scene.load_options());
-  const render::Entity& entity = find_geometry(scene, options.name);
+  const render::Entity& given = find_geometry(scene, options.name);
+  // What asks for faces gets those of a solid that is put together; the plain measures ask for them themselves.
+  const bool asks_for_faces = options.topology || !options.section.empty() || !options.silhouette.empty() ||
+                              !options.intersect.empty() || options.continuity || options.cubature > 0;
+  std::string no_boundary;
+  const render::Entity entity = asks_for_faces ? by_boundary(given, &no_boundary) : given;
+  if (options.topology && !no_boundary.empty())
+    throw UsageError(fmt::format("'{}' has no topology: {}", options.name, no_boundary));
   print_external_notes(scene, !options.json);
   const bool of_pair = !options.against.empty() && is_in_scene(scene, options.against);
   const bool of_contours =
@@ -300,9 +307,11 @@ int run(const Options& options) {
 
 }  // namespace
 
-ordered_json measures(const std::string& name, const render::Entity& entity) {
+ordered_json measures(const std::string& name, const render::Entity& given) {
   ordered_json out;
   out["name"] = name;
+  std::string no_boundary;
+  const render::Entity entity = by_boundary(given, &no_boundary);
   try {
     if (const auto* curve = std::get_if<geometry::CurvePtr>(&entity)) {
       const geometry::CurveMeasures measured = geometry::measure(**curve);
@@ -339,6 +348,7 @@ ordered_json measures(const std::string& name, const render::Entity& entity) {
     } else if (const auto* shape = std::get_if<geometry::ShapePtr>(&entity)) {
       const geometry::ShapeMeasures measured = geometry::measure(**shape);
       out["kind"] = "shape";
+      if (!no_boundary.empty()) out["by_lines"] = "its boundary is not made: " + no_boundary;
       put(out, "area", measured.area);
       put(out, "volume", measured.volume);
       put_centroid(out, measured.centroid, measured.centroid_error);
@@ -363,6 +373,7 @@ void print_measures(const ordered_json& measured) {
              : measured.value("volume", 0.0) < 0 ? ", inside out: its volume is negative"
                                                  : "");
   for (const auto& [key, value] : measured.items()) {
+    if (key == "by_lines") fmt::print("by lines           {}\n", value.get<std::string>());
     if (key == "conic") fmt::print("{:<18} {}\n", key, value.get<std::string>());
     if (value.is_string() || value.is_boolean() || key.ends_with("_error")) continue;
     if (key == "parameters") {

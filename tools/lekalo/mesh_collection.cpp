@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "command.h"
 #include "geometry/transformed.h"
 #include "render/model/mesh_tolerance.h"
 
@@ -13,7 +14,8 @@ using geometry::Affine;
 using geometry::Mesh;
 
 void MeshCollection::add_shape(const render::Object& object, const Affine& to_world) {
-  const render::Entity& entity = object.shape;
+  std::string no_boundary;
+  const render::Entity entity = by_boundary(object.shape, &no_boundary);
   const std::string& name = object.name;
   const auto tolerance = [&] { return tolerance_of(object, to_world); };
   if (const auto* surface = std::get_if<geometry::SurfacePtr>(&entity)) {
@@ -29,7 +31,8 @@ void MeshCollection::add_shape(const render::Object& object, const Affine& to_wo
   } else if (const auto* group = std::get_if<render::GroupPtr>(&entity)) {
     for (const render::Object& object : (*group)->objects) add(object, to_world);
   } else if (std::holds_alternative<geometry::ShapePtr>(entity)) {
-    left_out_.insert(fmt::format("'{}' is met by rays only and has no triangles", name));
+    left_out_.insert(no_boundary.empty() ? fmt::format("'{}' is met by rays only and has no triangles", name)
+                                         : fmt::format("'{}' has no triangles: {}", name, no_boundary));
   } else {
     left_out_.insert(fmt::format("'{}' is a point and has no triangles", name));
   }

@@ -228,8 +228,23 @@ Curve2Ptr simple_image(const std::function<Vec3(double)>& image, const std::vect
 Curve2Ptr simple_image(const Surface& surface, const Curve2Ptr& image) {
   for (const CurvePiece& piece : image->pieces())
     if (piece.is_rational()) return image;
-  const Curve2Ptr result =
-      simple_image([&](double t) { return image->point(t); }, stretches_of(*image), parameter_size(surface));
+  // In a pole an image jumps: at an end its limit is meant.
+  const double size = parameter_size(surface);
+  const Interval t = image->domain();
+  const double step = 1e-9 * t.width();
+  const auto limit = [&](double end, double by) {
+    const Vec3 near = image->point(end + by), far = image->point(end + 2 * by);
+    return [=](double at) { return near + (at - (end + by)) / by * (far - near); };
+  };
+  const auto at_begin = limit(t.lo, step), at_end = limit(t.hi, -step);
+  const bool jumps_at_begin = glm::length(at_begin(t.lo) - image->point(t.lo)) > 1e-6 * size,
+             jumps_at_end = glm::length(at_end(t.hi) - image->point(t.hi)) > 1e-6 * size;
+  const auto point = [&](double at) {
+    if (jumps_at_begin && at < t.lo + step) return at_begin(at);
+    if (jumps_at_end && at > t.hi - step) return at_end(at);
+    return image->point(at);
+  };
+  const Curve2Ptr result = simple_image(point, stretches_of(*image), size);
   return result ? result : image;
 }
 

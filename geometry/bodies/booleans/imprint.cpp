@@ -436,10 +436,17 @@ class Imprinting {
           if (own.count(k) != 0 || faces_[other][on.face].inner.count(k) != 0) continue;
           // A strand of the first body has that one's parameter: where it lies is asked in space.
           const auto t = edge.near->place_of(strand.curve->point(middle_of(*strand.curve)), 10 * tolerance_);
-          if (!t || !on.t.contains(*t)) continue;
+          if (!t || !on.t.contains(*t) || !is_in_face(other, on.face, edge.near->point(*t))) continue;
           add_inner(other, on.face, k, image_of(other, on.face, strand));
         }
       }
+  }
+
+  bool is_in_face(int side, int f, const Vec3& p) const {
+    const SurfacePtr& surface = face(side, f).surface;
+    const Vec2 uv = parameters_on(surface, p);
+    const auto place = in_region(side, f, uv, kOnBorder);
+    return place && glm::length(surface->point(place->x, place->y) - p) <= 10 * tolerance_;
   }
 
   std::set<int> strands_of_border(int side, int f) const {
@@ -464,6 +471,8 @@ class Imprinting {
     for (const auto& [f, g, contour] : contours_) {
       const CurvePtr curve = contour_approximation(contour.curve);
       const NearCurve near(curve);
+      // A point: the surfaces touch there.
+      if (near.length() <= 8 * tolerance_) continue;
       const Interval domain = curve->domain();
       std::vector<Cut> cuts;
       for (size_t k = 0; k < imprint_.points.size(); ++k)

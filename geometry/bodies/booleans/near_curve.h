@@ -14,6 +14,7 @@ class NearCurve {
 
   const Box3& box() const { return box_; }
   double length() const { return length_; }
+  Vec3 point(double t) const { return curve_->point(t); }
   // The parameter of the nearest point, where that is not farther than `near`.
   std::optional<double> place_of(const Vec3& p, double near) const;
 

@@ -184,6 +184,7 @@ class Builder {
 
   // --- builder_types.cpp: maps with a `type`.
   std::optional<Built> build_typed(const Value& map, const Counters& counters, std::span<const Category> wanted);
+  std::optional<Built> as_wanted(Built built, const Value& value, std::span<const Category> wanted);
   const TypeDeclaration* type_of(const Value& map, std::span<const Category> wanted);
   // The value of a map of the type's fields and those common to its category.
   std::optional<std::any> build_as(const TypeDeclaration& type, const Value& map, const Counters& counters);

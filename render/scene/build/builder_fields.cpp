@@ -158,6 +158,8 @@ bool Builder::read_fields_into(Fields& fields, const std::vector<Field>& declare
       const bool read = read_field(field, *value, counters, fields);
       if (read && field.type.kind == Kind::references && fields.holds<std::vector<std::any>>(field.name))  // no word
         fields.set(field.name + ".names", names_of_references(*value, counters, field.type.categories));
+      if (read && field.type.kind == Kind::reference && value->is_scalar())
+        fields.set(field.name + ".names", names_of_references(*value, counters, field.type.categories));
       good = read && good;
     } else if (!field.default_text.empty()) {
       good = read_field(field, default_value(field.default_text), {}, fields) && good;

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "render/scene/build/builder.h"
+
+#include "geometry/bodies/booleans/solid_boundary.h"
 #include "render/scene/values/scalars.h"
 #include "render/scene/values/words.h"
 
@@ -182,6 +184,12 @@ std::optional<std::vector<Built>> Builder::part_of(const Built& whole, std::stri
     return std::nullopt;
   }
   if (const auto* body = std::any_cast<BodyPtr>(&whole.value)) return elements_called(**body, part, asked, wanted);
+  // The faces of a solid that is put together are those of its boundary.
+  if (const auto* shape = std::any_cast<geometry::ShapePtr>(&whole.value); shape && geometry::has_boundary(**shape)) {
+    const Category bodies[] = {Category::body};
+    const auto body = as_wanted(whole, asked, bodies);
+    return body ? part_of(*body, part, asked, wanted) : std::nullopt;
+  }
   diagnostics_.error(asked.place, fmt::format("'{}' has no member '{}'", asked.text, part));
   return std::nullopt;
 }
@@ -272,6 +280,11 @@ std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<c
                                              : fmt::format("its members are {} to {}", thing.members.front().name,
                                                            thing.members.back().name));
     return std::nullopt;
+  }
+  for (Built& built : result) {
+    auto fitting = as_wanted(std::move(built), value, wanted);
+    if (!fitting) return std::nullopt;
+    built = *std::move(fitting);
   }
   for (const Built& built : result)
     if (!contains(wanted, built.category)) {

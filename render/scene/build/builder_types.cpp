@@ -10,6 +10,8 @@
 #include "geometry/queries/measures/mass_properties.h"
 #include "geometry/transformed.h"
 #include "render/scene/build/builder.h"
+
+#include "geometry/bodies/booleans/solid_boundary.h"
 #include "render/scene/values/scalars.h"
 #include "render/scene/values/words.h"
 
@@ -112,7 +114,8 @@ const TypeDeclaration* Builder::type_of(const Value& map, std::span<const Catego
                        nearest.empty() ? "one of " + listed(known, 40) : "");
     return nullptr;
   }
-  if (!contains(wanted, type->category)) {
+  if (!contains(wanted, type->category) &&
+      !(contains(wanted, Category::body) && geometry::makes_boundary(type->name))) {
     diagnostics_.error(
         place,
         fmt::format("'{}' makes {}, but {} is wanted here", name, describe({&type->category, 1}), describe(wanted)),
@@ -213,7 +216,24 @@ std::optional<Built> Builder::build_typed(const Value& given, const Counters& co
   if (!type) return std::nullopt;
   auto value = build_as(*type, *map, counters);
   if (!value) return std::nullopt;
-  return Built{type->category, *std::move(value)};
+  return as_wanted({type->category, *std::move(value)}, *map, wanted);
+}
+
+// A solid that is put together, by its boundary where a body is wanted.
+std::optional<Built> Builder::as_wanted(Built built, const Value& value, std::span<const Category> wanted) {
+  const auto* shape = std::any_cast<geometry::ShapePtr>(&built.value);
+  if (!shape || contains(wanted, Category::shape) || !contains(wanted, Category::body) ||
+      !geometry::has_boundary(**shape))
+    return built;
+  try {
+    return Built{Category::body, geometry::boundary_of(*shape)};
+  } catch (const std::runtime_error& error) {
+    diagnostics_.error(value.place, fmt::format("the boundary of this solid: {}", error.what()),
+                       "a body is wanted here; as a shape it can be rendered all the same");
+  } catch (const std::invalid_argument& error) {
+    diagnostics_.error(value.place, fmt::format("the boundary of this solid: {}", error.what()));
+  }
+  return std::nullopt;
 }
 
 std::optional<Built> Builder::transformed(Built built, const Affine& map, const Value& value) {

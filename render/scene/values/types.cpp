@@ -61,6 +61,9 @@ std::vector<std::string> types_meant_by(std::string_view word, std::span<const C
   for (const TypeDeclaration& type : all_types()) {
     // The ball is the sphere's body.
     bool meant = word == "sphere" && type.name == "ball";
+    // What other modellers call these.
+    meant = meant || (word == "fuse" && type.name == "union") || (word == "cut" && type.name == "difference") ||
+            (word == "common" && type.name == "intersection");
     for (const std::string_view suffix : {"_curve", "_surface", "_body", "_light", "_mesh"})
       meant = meant || (type.name.size() == word.size() + suffix.size() && type.name.starts_with(word) &&
                         type.name.ends_with(suffix));
