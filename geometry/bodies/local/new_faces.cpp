@@ -141,6 +141,25 @@ Vec3 NewFaces::point_on(const Sector& s, int coedge, bool at_begin) const {
   return supports_[s.face]->point(at.x, at.y);
 }
 
+std::optional<Vec3> NewFaces::point_of_few_planes(const Corner& corner) const {
+  std::vector<const Sector*> distinct;
+  for (const Sector& s : corner.sectors) {
+    if (!planes_[s.face]) return std::nullopt;
+    const Frame& plane = *planes_[s.face];
+    const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const Sector* x) {
+      const Frame& other = *planes_[x->face];
+      return glm::length(glm::cross(plane.z, other.z)) < 1e-9 &&
+             std::abs(glm::dot(plane.origin - other.origin, other.z)) < 1e-9 * size_;
+    });
+    if (!known) distinct.push_back(&s);
+  }
+  if (distinct.size() == corner.sectors.size()) return std::nullopt;
+  if (distinct.size() == 1) return point_on(*distinct[0], distinct[0]->in);
+  if (distinct.size() == 2) return nearest_common_point(near_surface(*distinct[0]), near_surface(*distinct[1]), size_);
+  if (distinct.size() != 3) return std::nullopt;
+  return common_point({near_surface(*distinct[0]), near_surface(*distinct[1]), near_surface(*distinct[2])}, size_);
+}
+
 CornerTree NewFaces::tree_of(const Corner& corner) const {
   const size_t count = corner.sectors.size();
   CornerTree one{{}, std::vector<int>(count, 0), {}};
@@ -151,7 +170,8 @@ CornerTree NewFaces::tree_of(const Corner& corner) const {
   std::optional<Vec3> point = carried_point(corner);
   const bool is_carried = point || std::any_of(corner.sectors.begin(), corner.sectors.end(),
                                                [&](const Sector& s) { return carriers_[use(s.in).edge] >= 0; });
-  if (!is_carried && count == 2)
+  if (!point && !is_carried && corner.vertex >= 0) point = point_of_few_planes(corner);
+  if (!point && !is_carried && count == 2)
     point = nearest_common_point(near_surface(corner.sectors[0]), near_surface(corner.sectors[1]), size_);
   if (point) {
     one.points = {*point};

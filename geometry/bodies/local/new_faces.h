@@ -50,6 +50,8 @@ class NewFaces {
   Vec3 normal_at(const Sector& s) const;
   std::string names_of(const Corner& corner) const;
   std::optional<Vec3> carried_point(const Corner& corner) const;
+  // Of faces some of which lie in one plane.
+  std::optional<Vec3> point_of_few_planes(const Corner& corner) const;
   Vec3 point_on(const Sector& s, int coedge, bool at_begin = false) const;
 
   const Body old_;

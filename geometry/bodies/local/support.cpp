@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "geometry/bodies/constructions/profile_offset.h"
+#include "geometry/curves/analytic/segment.h"
 #include "geometry/surfaces/analytic/cone.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/surfaces/derived/offset.h"
@@ -82,8 +83,6 @@ SurfacePtr offset_extrusion(const ExtrusionSurface& e, double d, const char* fie
 }
 
 SurfacePtr offset_revolution(const RevolutionSurface& r, double d, const char* field) {
-  const DegenerateEdges poles = r.degenerate_edges();
-  if (poles.u_min || poles.u_max) return nullptr;
   // At v = 0 the curve lies in a plane through the axis, and r_v = axis x (c - p).
   const Interval domain = r.curve()->domain();
   const Axis axis = r.axis();
@@ -93,6 +92,15 @@ SurfacePtr offset_revolution(const RevolutionSurface& r, double d, const char* f
   for (int k = 0; k <= 16; ++k) {
     const Vec3 p = r.curve()->point(domain.lo + domain.width() * k / 16) - axis.through;
     if (std::abs(glm::dot(p, normal)) > 1e-12 * (bounds(*r.curve()).diameter() + glm::length(p))) return nullptr;
+  }
+  // Across the axis a pole stays; a tip moves along the axis, with all of a straight meridian.
+  const DegenerateEdges poles = r.degenerate_edges();
+  for (const auto& [pole, t] : {std::pair(poles.u_min, domain.lo), std::pair(poles.u_max, domain.hi)}) {
+    const Vec3 along = glm::normalize(r.curve()->evaluate(t, 1).d[1]);
+    if (!pole || std::abs(glm::dot(along, axis.along)) <= 1e-9) continue;
+    if (!dynamic_cast<const Segment*>(r.curve().get())) return nullptr;
+    const Vec3 shift = d / glm::dot(glm::cross(along, normal), axis.along) * axis.along;
+    return std::make_shared<RevolutionSurface>(transformed(r.curve(), Affine::translation(shift)), axis, r.domain());
   }
   // c' x (direction of r_v) = c' x normal is to the right of c', seen against the normal.
   return std::make_shared<RevolutionSurface>(offset_in_plane(r.curve(), normal, -d, field), axis, r.domain());

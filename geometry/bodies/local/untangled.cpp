@@ -200,31 +200,27 @@ class Untangling {
     return loops;
   }
 
-  bool is_unchanged() const {
-    size_t lines = 0, sides = 0;
-    for (const Group& group : groups_) lines += group.lines.size();
-    std::vector<std::vector<int>> loops;
-    for (const Boundary& one : boundaries_) loops.insert(loops.end(), one.loops.begin(), one.loops.end());
-    std::set<std::vector<int>> found;
-    for (auto& loop : loops) {
-      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
-      found.insert(loop);
-    }
-    for (const PlanePolygon& polygon : polygons_)
-      for (const auto& loop : polygon.loops) {
-        std::vector<int> numbers;
-        for (const Vec3& p : loop) numbers.push_back(known_point(p));
-        std::rotate(numbers.begin(), std::min_element(numbers.begin(), numbers.end()), numbers.end());
-        if (found.count(numbers) == 0) return false;
-        ++sides;
+  // No line but the sides of the polygons, and each of these has its polygon on its left and in the result.
+  bool is_unchanged() {
+    for (const Group& group : groups_) {
+      std::vector<Line> sides;
+      for (const int i : group.members) {
+        const Frame& frame = polygons_[i].frame;
+        const int expected = glm::dot(frame.z, group.frame.z) > 0 ? 1 : -1;
+        for (const auto& loop : polygons_[i].loops)
+          for (size_t k = 0; k < loop.size(); ++k) {
+            const Vec3 &p = loop[k], &q = loop[(k + 1) % loop.size()];
+            const int a = point(p), b = point(q);
+            if (a == b) return false;
+            sides.emplace_back(std::min(a, b), std::max(a, b));
+            const Vec3 left = glm::cross(frame.z, glm::normalize(q - p));
+            if (side_at(group, 0.5 * (p + q) + kBeside * size_ * left) != expected) return false;
+          }
       }
-    return sides == loops.size() && lines > 0;
-  }
-
-  int known_point(const Vec3& p) const {
-    for (size_t k = 0; k < points_.size(); ++k)
-      if (glm::length(points_[k] - p) <= kSame * size_) return static_cast<int>(k);
-    return -1;
+      deduplicate(sides);
+      if (sides != group.lines) return false;
+    }
+    return true;
   }
 
   // A point through which all loops go straight is none of the result's.

@@ -10,6 +10,8 @@
 #include <algorithm>
 
 #include "geometry/composition.h"
+#include "geometry/curves/analytic/segment.h"
+#include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/describe.h"
 #include "geometry/surfaces/analytic/cone.h"
 #include "geometry/surfaces/analytic/formula_surface.h"
@@ -103,6 +105,18 @@ struct Extended {
 
 using ExtendedSurface = ComposedSurface<Extended>;
 
+// A curve over a wider domain by its law; null where none is known.
+CurvePtr longer(const CurvePtr& curve, const Interval& domain) {
+  if (curve->domain().contains(domain)) return curve;
+  if (dynamic_cast<const Segment*>(curve.get()))
+    return with_domain(std::make_shared<Segment>(curve->point(domain.lo), curve->point(domain.hi)), domain);
+  if (const auto* moved = dynamic_cast<const TransformedCurve*>(curve.get())) {
+    const CurvePtr more = longer(moved->original(), domain);
+    return more ? transformed(more, moved->map()) : nullptr;
+  }
+  return curve->continued(domain);
+}
+
 }  // namespace
 
 SurfacePtr continued_by_law(const SurfacePtr& of, const Rectangle& domain) {
@@ -128,15 +142,11 @@ SurfacePtr continued_by_law(const SurfacePtr& of, const Rectangle& domain) {
     return more ? transformed(more, moved->map()) : nullptr;
   }
   if (const auto* e = as((ExtrusionSurface*)nullptr)) {
-    const Interval own = e->curve()->domain();
-    if (own.contains(domain.u)) return std::make_shared<ExtrusionSurface>(e->curve(), e->along(), domain);
-    if (const CurvePtr more = e->curve()->continued(domain.u))
+    if (const CurvePtr more = longer(e->curve(), domain.u))
       return std::make_shared<ExtrusionSurface>(more, e->along(), domain);
   }
   if (const auto* r = as((RevolutionSurface*)nullptr)) {
-    const Interval own = r->curve()->domain();
-    if (own.contains(domain.u)) return std::make_shared<RevolutionSurface>(r->curve(), r->axis(), domain);
-    if (const CurvePtr more = r->curve()->continued(domain.u))
+    if (const CurvePtr more = longer(r->curve(), domain.u))
       return std::make_shared<RevolutionSurface>(more, r->axis(), domain);
   }
   return nullptr;
