@@ -18,6 +18,7 @@
 
 #include "render/film/blocks.h"
 #include "render/film/cryptomatte.h"
+#include "render/film/denoise.h"
 #include "render/film/tiles.h"
 #include "render/image/image_error.h"
 #include "render/lines/picture_lines.h"
@@ -674,6 +675,7 @@ RenderResult render(const World& world, const RenderOptions& options) {
   result.part_complete = ledger.part_complete();
   result.saved = (!result.complete || options.part) && !options.partial_file.empty() && ledger.write();
   film.develop();
+  if (film.channel(kDenoisedR) && result.complete) denoise(film.image());
   describe(film.image(), model);
   if (film.channel(kObjectMatte)) describe_cryptomatte(film.image(), "CryptoObject", object_names(world));
   if (film.channel(kMaterialMatte))

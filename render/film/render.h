@@ -19,7 +19,8 @@ inline constexpr std::string_view kPartialMagic = "lekalo partial ";
 // geometric_normal (Ng), uv, id (id.object id.material), albedo, quantity (a channel called as the integrator's
 // quantity, where it has one), samples. And what is kept only if it is asked for: the parts of light (LightParts) of
 // integrators that tell them, indirect, emission, diffuse, specular, transmission, light_groups (group.NAME.R ..., and
-// group.rest of lights in no group); variance; cryptomatte_object and cryptomatte_material (cryptomatte.h).
+// group.rest of lights in no group); variance; cryptomatte_object and cryptomatte_material (cryptomatte.h); denoised
+// (denoise.h).
 const std::vector<std::string>& film_layers();
 bool keeps_layer(const Film& film, std::string_view layer);
 

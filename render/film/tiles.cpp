@@ -68,6 +68,9 @@ constexpr ChannelName kChannels[kFilmChannels] = {{"R", "color"},
                                                   {"variance.R", "variance"},
                                                   {"variance.G", "variance"},
                                                   {"variance.B", "variance"},
+                                                  {"denoised.R", "denoised"},
+                                                  {"denoised.G", "denoised"},
+                                                  {"denoised.B", "denoised"},
                                                   {"CryptoObject", "cryptomatte_object"},
                                                   {"CryptoMaterial", "cryptomatte_material"},
                                                   {"id.key", "key"}};
@@ -142,6 +145,10 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer, const Names& names)
       throw std::invalid_argument("the layer 'quantity' is that of an integrator that measures: analysis");
     else if (is_part(layer) && !names.parts)
       throw std::invalid_argument("the layer '" + layer + "' is that of an integrator that follows paths: path");
+  if (keeps_layer(film, kChannels[kDenoisedR].layer))
+    for (const char* needed : {"color", "normal", "albedo", "depth", "variance"})
+      if (!keeps_layer(film, needed))
+        throw std::invalid_argument(std::string("the layer 'denoised' is made of others; keep '") + needed + "' too");
   channel_.fill(-1);
   for (int c = 0; c < kFilmChannels; ++c) {
     const std::string_view name = c == kQuantity ? std::string_view(names.quantity) : kChannels[c].channel;

@@ -90,6 +90,9 @@ enum FilmChannel : int {
   kVarianceR,
   kVarianceG,
   kVarianceB,
+  kDenoisedR,  // written when the picture is complete
+  kDenoisedG,
+  kDenoisedB,
   kObjectMatte,  // each a Cryptomatte (cryptomatte.h)
   kMaterialMatte,
   kKey,

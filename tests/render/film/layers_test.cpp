@@ -146,6 +146,36 @@ TEST(Cryptomatte, SharesAreThoseOfTheIds) {
   }
 }
 
+// Within outlines nearer, as displayed, to the picture of many samples than what it is made of, and as bright.
+TEST(Denoise, IsNearerToTheTruth) {
+  SmallScene scene = lit_balls();
+  // Photons err all pixels together, which no variance tells.
+  scene.model.objects[0].material = make_material(Diffuse{.color = 0.6});
+  scene.model.film.width = 90;
+  scene.model.film.height = 60;
+  scene.model.camera = make_camera(PerspectiveView{{0, -7, 4}, {0, 0, 0.7}, {0, 0, 1}, 0.6}, 90, 60);
+  scene.model.film.layers = {"color", "normal", "albedo", "depth", "variance", "denoised"};
+  const Image image = render(*world(scene), {.threads = 1}).image;
+  EXPECT_TRUE(same(image, render(*world(scene), {.threads = 3}).image));
+  scene.model.film.samples = 512;
+  scene.model.film.seed = 5;
+  const Image truth = render(*world(scene), {}).image;
+  double before = 0, after = 0, mean_before = 0, mean_after = 0;
+  for (size_t i = 0; i < image.pixel_count(); ++i) {
+    const double is = find_channel(truth, "R")->values[i], raw = find_channel(image, "R")->values[i],
+                 clean = find_channel(image, "denoised.R")->values[i];
+    mean_before += raw;
+    mean_after += clean;
+    if (clean == raw) continue;  // an outline: kept
+    before += std::pow(std::sqrt(raw) - std::sqrt(is), 2);
+    after += std::pow(std::sqrt(clean) - std::sqrt(is), 2);
+  }
+  EXPECT_LT(after, 0.5 * before);
+  EXPECT_NEAR(mean_after, mean_before, 0.01 * mean_before);
+  scene.model.film.layers = {"color", "denoised"};
+  EXPECT_THROW(render(*world(scene), {}), std::invalid_argument);
+}
+
 TEST(Noise, BlocksTakeWhatTheyNeed) {
   for (const char* filter : {"box", "mitchell"}) {
     SmallScene scene = lit_balls();

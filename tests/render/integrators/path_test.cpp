@@ -320,6 +320,32 @@ TEST(Path, PrismSpreadsColours) {
   EXPECT_NEAR(yellow.mean, place(587.5618) * passes, 0.02 * std::abs(truth[0]) + 3 * yellow.error);
 }
 
+TEST(Path, PrismDeviatesAsItsIndicesSay) {
+  // At the least deviation of a prism of 60 degrees, 2 asin(n sin 30) - 60 degrees, by the indices of Schott's data
+  // sheet of N-BK7 for the lines d, F and C.
+  const MaterialPtr glass = make_material(Dielectric{.glass = "N-BK7"});
+  const auto refracted = [&](const Vec3& direction, const Vec3& normal, double near, double behind) {
+    const Scattering scattering = glass->scattering({}, Wavelengths{});
+    const Bsdf bsdf(scattering, normal, normal, Vec3(0), -direction, {near, behind});
+    for (int i = 0; i < 64; ++i)  // reflected ones are of no interest
+      if (const auto sample = bsdf.sample({(i + 0.5) / 64, 0.5}, {0.5, 0.5}))
+        if (glm::dot(sample->in, normal) < 0) return sample->in;
+    return Vec3(0);
+  };
+  const struct { double nanometres, index; } lines[] = {{587.5618, 1.51680}, {486.1327, 1.52238}, {656.2725, 1.51432}};
+  for (const auto& line : lines) {
+    const auto wavelength = static_cast<float>(line.nanometres);
+    const double n = glass->interior({{wavelength, wavelength, wavelength, wavelength}})->index;
+    const double half = kPi / 6, in = std::asin(line.index * std::sin(half));
+    // Faces at 30 degrees to both sides of z; light along the base within, if it comes in at that angle.
+    const Vec3 first(-std::cos(half), 0, std::sin(half)), second(-std::cos(half), 0, -std::sin(half));
+    const double turn = in - half;
+    const Vec3 start(std::cos(turn), 0, std::sin(turn));
+    const Vec3 out = refracted(refracted(start, first, 1, n), second, n, 1);
+    EXPECT_NEAR(std::acos(glm::dot(start, out)), 2 * in - kPi / 3, 1e-4) << line.nanometres;
+  }
+}
+
 TEST(Path, DispersingBallInAFurnaceIsWhite) {
   SmallScene scene;
   scene.light(AmbientLight{.intensity = 1});
