@@ -143,9 +143,9 @@ TEST_F(CurveProperties, ElevationInsertionAndSubdivisionKeepTheCurve) {
 
 TEST_F(CurveProperties, SplinesGoThroughTheirPoints) {
   constexpr std::string_view kTypes[] = {
-      "spline_curve, ends: natural",      "spline_curve, ends: parabolic", "hermite_curve",
-      "local_interpolant, beta: 0.7",     "spline_curve, closed: true",    "tension_spline, tension: 2",
-      "hermite_curve, knots: centripetal"};
+      "spline_curve, ends: natural",       "spline_curve, ends: parabolic",  "hermite_curve",
+      "local_interpolant, beta: 0.7",      "spline_curve, closed: true",     "tension_spline, tension: 2",
+      "hermite_curve, knots: centripetal", "exponential_spline, tension: 6", "exponential_spline, closed: true"};
   for (int k = 0; k < count; ++k) {
     const std::vector<Vec3> at = points(whole(6, 9));
     for (const std::string_view type : kTypes) {
