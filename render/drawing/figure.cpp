@@ -22,6 +22,7 @@
 #include "render/drawing/paths/overlaps.h"
 #include "render/film/render.h"
 #include "render/image/display.h"
+#include "render/model/section.h"
 #include "render/scene/values/diagnostics.h"
 
 namespace lekalo::render {
@@ -91,7 +92,7 @@ class ViewDrawing {
     add_statistics(lines);
     for (const Object* object : world_.objects()) names_.push_back(object->name);
     if (model_->drawing.ground == Ground::shaded) add_ground();
-    if (model_->drawing.ground == Ground::fill) add_fills(lines, one_faces);
+    if (model_->drawing.ground == Ground::fill || has_hatched_cuts(model_->objects)) add_fills(lines, one_faces);
     // What is hidden lies under what is seen, which is known first.
     SheetGroup seen = line_paths(lines, false), hidden = line_paths(lines, true);
     SheetGroup marks = marks_of(lines);

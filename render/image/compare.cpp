@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "render/image/display.h"
@@ -35,6 +36,38 @@ double strictest(Metric metric) {
 
 std::string size_text(const Image& image) {
   return std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels";
+}
+
+// The part of a picture that a window of the same full picture has, if there is one.
+std::optional<Image> part_of(const Image& whole, const Image& window) {
+  const auto full = [](int known, int own) { return known > 0 ? known : own; };
+  const bool same_picture =
+      full(whole.full_width, whole.x + whole.width) == full(window.full_width, window.x + window.width) &&
+      full(whole.full_height, whole.y + whole.height) == full(window.full_height, window.y + window.height);
+  const int left = window.x - whole.x, top = window.y - whole.y;
+  if (!same_picture || left < 0 || top < 0 || left + window.width > whole.width || top + window.height > whole.height)
+    return std::nullopt;
+  Image part = whole;
+  part.width = window.width, part.height = window.height, part.x = window.x, part.y = window.y;
+  const auto cut = [&](auto& plane) {
+    if (plane.empty()) return;
+    std::decay_t<decltype(plane)> kept(part.pixel_count());
+    for (int y = 0; y < part.height; ++y)
+      for (int x = 0; x < part.width; ++x)
+        kept[static_cast<std::size_t>(y) * static_cast<std::size_t>(part.width) + static_cast<std::size_t>(x)] =
+            plane[static_cast<std::size_t>(top + y) * static_cast<std::size_t>(whole.width) +
+                  static_cast<std::size_t>(left + x)];
+    plane = std::move(kept);
+  };
+  for (Channel& channel : part.channels) {
+    cut(channel.values);
+    cut(channel.ids);
+  }
+  return part;
+}
+
+bool same_window(const Image& a, const Image& b) {
+  return a.width == b.width && a.height == b.height && a.x == b.x && a.y == b.y;
 }
 
 void require_same_window(const Image& a, const Image& b, const std::filesystem::path& path_a,
@@ -148,6 +181,11 @@ bool larger_is_better(Metric metric) { return metric == Metric::psnr || metric =
 
 ComparisonResult compare_images(const Image& image_a, const Image& image_b, const std::filesystem::path& path_a,
                                 const std::filesystem::path& path_b, const CompareOptions& options) {
+  // A crop is compared with what the whole picture has there.
+  if (!same_window(image_a, image_b)) {
+    if (const auto part = part_of(image_a, image_b)) return compare_images(*part, image_b, path_a, path_b, options);
+    if (const auto part = part_of(image_b, image_a)) return compare_images(image_a, *part, path_a, path_b, options);
+  }
   require_same_window(image_a, image_b, path_a, path_b);
   const bool color = options.layer.empty() || options.layer == "color";
   Layer a = select_layer(image_a, options.layer, path_a);

@@ -299,16 +299,17 @@ void StrokeCollector::add_frames(const Curve& curve, const Helper& helper) {
   style.arrows = "end";
   const double length = helper.values.number("length");
   const std::string& named = helper.values.text("label");
+  const auto& called = helper.values.get<std::vector<TextTemplate>>("names");
   for (size_t k = 0; k < frames.size(); ++k) {
     const bool names = named == "all" || (named == "first" && k == 0) || (named == "last" && k + 1 == frames.size());
-    const auto arrow = [&](const Vec3& axis, const char* name) {
+    const auto arrow = [&](const Vec3& axis, size_t which) {
       const Vec3 tip = frames[k].origin + length * axis;
       stroke(std::make_shared<Segment>(frames[k].origin, tip), style, helper.hidden);
-      if (names) text(tip, name, helper, false);
+      if (names) text(tip, called[which].text(), helper, false);
     };
-    arrow(frames[k].z, "$\\mathbf{t}$");
-    arrow(frames[k].x, "$\\mathbf{n}$");
-    arrow(frames[k].y, "$\\mathbf{b}$");
+    arrow(frames[k].z, 0);
+    arrow(frames[k].x, 1);
+    arrow(frames[k].y, 2);
   }
 }
 

@@ -130,19 +130,20 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
 }
 
 void StrokeCollector::add_parameter_lines(const ShapePtr& shape, const Lines& lines, const Style& style) {
+  const HiddenLines& hidden = lines.hidden_of("parameter");
   const ParameterNet net{lines.at_u, lines.at_v};
   const ViewOf view = view_from(to_world_.inverse());
   in_own_coordinates(shape, [&](const Shape& original, const Affine& back) {
     const ViewOf own_view = seen_through(view, back);
     if (const auto* tube = dynamic_cast<const Tube*>(&original))
-      return add_on_tube(boundary_of(*tube).parameter_lines(net, own_view), nullptr, style, lines.hidden);
+      return add_on_tube(boundary_of(*tube).parameter_lines(net, own_view), nullptr, style, hidden);
     if (const auto* balls = dynamic_cast<const Balls*>(&original))
-      return add(parameter_lines(*balls, net, own_view), true, style, lines.hidden);
+      return add(parameter_lines(*balls, net, own_view), true, style, hidden);
     const auto* solid = dynamic_cast<const Csg*>(&original);
     if (!solid) return leave_out("parameter lines of " + name_of_object());
     const CsgLines found = csg_parameter_lines(*solid, net, own_view);
     note(found);
-    for (const CsgLine& line : found.lines) add(line, style, lines.hidden);
+    for (const CsgLine& line : found.lines) add(line, style, hidden);
   });
 }
 

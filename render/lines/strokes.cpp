@@ -18,6 +18,7 @@
 #include "render/model/mesh_tolerance.h"
 #include "render/model/objects.h"
 #include "render/model/placed_objects.h"
+#include "render/model/section.h"
 #include "render/scene/values/color_names.h"
 
 namespace lekalo::render {
@@ -113,7 +114,7 @@ StrokeCollector::StrokeCollector(const World& world, bool drawing, const std::at
   const auto is_wanted = [&](const Object& object) { return drawing || has_lines_in_pictures(object); };
   for (size_t i = 0; i < world.objects().size(); ++i)
     if (is_wanted(*world.objects()[i])) numbers_.emplace(world.objects()[i], static_cast<int>(i));
-  work_.fills = drawing && model_.camera && model_.drawing.ground == Ground::fill;
+  work_.fills = drawing && model_.camera && (model_.drawing.ground == Ground::fill || has_hatched_cuts(model_.objects));
   PlacedObjects(model_.objects, is_wanted)
       .visit(
           [&](const Object& object, const Affine& to_world, int placement) { add_object(object, to_world, placement); },
@@ -320,50 +321,51 @@ CurvePtr StrokeCollector::shown_curve(const CurvePtr& curve) const {
 }
 
 void StrokeCollector::add_kind(std::string_view kind, const Style& style, const Lines& lines) {
+  const HiddenLines& hidden = lines.hidden_of(kind);
   if (kind == "curve") {
-    if (const auto* curve = std::get_if<CurvePtr>(&object_->shape)) add_curve(shown_curve(*curve), style, lines.hidden);
+    if (const auto* curve = std::get_if<CurvePtr>(&object_->shape)) add_curve(shown_curve(*curve), style, hidden);
     const auto* point = std::get_if<Vec3>(&object_->shape);
-    if (point && style.marker != "none") mark(*point, style.marker, style, lines.hidden);
+    if (point && style.marker != "none") mark(*point, style.marker, style, hidden);
   } else if (kind == "silhouette") {
-    add_silhouettes(view_from(to_world_.inverse()), style, lines.hidden);
-    add_mesh_lines(MeshLineKind::silhouette, style, lines.hidden);
+    add_silhouettes(view_from(to_world_.inverse()), style, hidden);
+    add_mesh_lines(MeshLineKind::silhouette, style, hidden);
   } else if (kind == "section") {
-    for (const SectionPlane& plane : lines.planes) add_section(object_->shape, plane, style, lines.hidden);
+    for (const SectionPlane& plane : lines.planes) add_section(object_->shape, plane, style, hidden);
   } else if (kind == "intersection") {
-    for (const std::any& other : lines.with) add_intersections(entity_of(other), style, lines.hidden);
+    for (const std::any& other : lines.with) add_intersections(entity_of(other), style, hidden);
   } else if (kind == "self_intersection") {
     if (std::holds_alternative<ShapePtr>(object_->shape)) leave_out("self-intersections of " + name_of_object());
     each_surface([&](const SurfacePtr& surface) {
       if (surface->bounded())
-        add(self_intersection(surface), {surface, surface}, style, lines.hidden);
+        add(self_intersection(surface), {surface, surface}, style, hidden);
       else
         leave_out("lines of " + name_of_object() + ", which is unbounded");
     });
   } else if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) {
     if (kind == "parameter")
-      for (const NetLine& line : parameter_lines(**body, {lines.at_u, lines.at_v})) add(line, style, lines.hidden);
+      for (const NetLine& line : parameter_lines(**body, {lines.at_u, lines.at_v})) add(line, style, hidden);
     else
-      add_edges(**body, kind, style, lines.hidden);
-    if (kind == "sharp") add_creases(**body, style, lines.hidden);
+      add_edges(**body, kind, style, hidden);
+    if (kind == "sharp") add_creases(**body, style, hidden);
   } else if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {
     if (kind == "parameter") add_parameter_lines(*shape, lines, style);
     if (kind == "sharp" || kind == "smooth" || kind == "boundary")
-      add_solid(*shape, view_from(to_world_.inverse()), true, style, lines.hidden);
+      add_solid(*shape, view_from(to_world_.inverse()), true, style, hidden);
   } else if (std::holds_alternative<MeshPtr>(object_->shape)) {
-    if (kind == "boundary") add_mesh_lines(MeshLineKind::boundary, style, lines.hidden);
-    if (kind == "sharp") add_mesh_lines(MeshLineKind::sharp, style, lines.hidden);
-    if (kind == "smooth") add_mesh_lines(MeshLineKind::smooth, style, lines.hidden);
+    if (kind == "boundary") add_mesh_lines(MeshLineKind::boundary, style, hidden);
+    if (kind == "sharp") add_mesh_lines(MeshLineKind::sharp, style, hidden);
+    if (kind == "smooth") add_mesh_lines(MeshLineKind::smooth, style, hidden);
   } else {
     each_surface([&](const SurfacePtr& surface) {
       if (!undrawn_ && !surface->bounded() && (kind == "parameter" || !dynamic_cast<const Plane*>(surface.get())))
         leave_out("lines of " + name_of_object() + ", which is unbounded");
-      if (kind == "boundary") add_boundary(surface, style, lines.hidden);
-      if (kind == "sharp") add_creases(surface, style, lines.hidden);
+      if (kind == "boundary") add_boundary(surface, style, hidden);
+      if (kind == "sharp") add_creases(surface, style, hidden);
       if (kind == "parameter")
-        for (const NetLine& line : parameter_lines(surface, {lines.at_u, lines.at_v})) add(line, style, lines.hidden);
+        for (const NetLine& line : parameter_lines(surface, {lines.at_u, lines.at_v})) add(line, style, hidden);
     });
   }
-  if (drawing_ && (kind == "sharp" || kind == "boundary")) add_cut_edges(kind, style, lines.hidden);
+  if (drawing_ && (kind == "sharp" || kind == "boundary")) add_cut_edges(kind, style, hidden);
 }
 
 ViewOf StrokeCollector::seen_through(ViewOf view, const Affine& map) {

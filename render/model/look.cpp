@@ -1,5 +1,7 @@
 #include "render/model/look.h"
 
+#include <memory>
+
 #include "render/scene/values/types.h"
 
 namespace lekalo::render {
@@ -25,11 +27,41 @@ HiddenLines hidden_of(const Fields& fields) {
   return hidden;
 }
 
+namespace {
+
+// A style, or { style: thick, hidden: dashed }.
+FieldType style_of_kind() {
+  FieldType type = reference({Category::style});
+  type.fields = std::make_shared<const std::vector<Field>>(
+      std::vector<Field>{{"style", reference({Category::style}), "of these lines", true, {}},
+                         {"hidden",
+                          hidden_lines(),
+                          "what becomes of these lines behind something, instead of `hidden` of all",
+                          false,
+                          {}}});
+  return type;
+}
+
+void read_kind(const Fields& fields, const std::string& kind, Lines& lines) {
+  if (!fields.given(kind)) return;
+  if (!fields.holds<Fields>(kind)) {
+    lines.styles[kind] = style_of(fields, kind);
+    return;
+  }
+  const Fields& own = fields.group(kind);
+  if (own.has("style")) lines.styles[kind] = style_of(own, "style");
+  if (own.has("hidden")) lines.own_hidden[kind] = hidden_of(own);
+}
+
+}  // namespace
+
 std::vector<Field> lines_fields() {
-  const FieldType style = reference({Category::style});
+  const FieldType style = style_of_kind();
   const auto of_style = [&](const char* default_style) {
-    return Field{"style", style, "of these lines", false, default_style};
+    return Field{"style", reference({Category::style}), "of these lines", false, default_style};
   };
+  const Field hidden{
+      "hidden", hidden_lines(), "what becomes of these lines behind something, instead of `hidden` of all", false, {}};
   return {
       {"boundary", style, "borders of a surface; drawn where given, like all kinds of lines", false, "thick"},
       {"sharp", style, "edges where faces of a body, or smooth pieces of a surface, meet at an angle", false, "thick"},
@@ -38,7 +70,8 @@ std::vector<Field> lines_fields() {
       {"parameter",
        group({{"at_u", counts(), "lines u = const: how many, or where", false, {}},
               {"at_v", counts(), "lines v = const: how many, or where", false, {}},
-              of_style("hairline")}),
+              of_style("hairline"),
+              hidden}),
        "parameter lines of surfaces, faces, tubes and balls, and of what is put together of them",
        false,
        {}},
@@ -50,7 +83,8 @@ std::vector<Field> lines_fields() {
                "planes of the world (also for objects of groups) that cut",
                true,
                {}},
-              of_style("thin")}),
+              of_style("thin"),
+              hidden}),
        "curves in which planes cut the object",
        false,
        {}},
@@ -60,7 +94,8 @@ std::vector<Field> lines_fields() {
                "what is met",
                true,
                {}},
-              of_style("thin")}),
+              of_style("thin"),
+              hidden}),
        "curves in which other things meet the object",
        false,
        {}},
@@ -78,10 +113,10 @@ std::vector<Field> lines_fields() {
 Lines lines_of(const Fields& fields) {
   Lines lines;
   for (const char* kind : {"boundary", "sharp", "smooth", "silhouette", "self_intersection", "curve"})
-    if (fields.given(kind)) lines.styles[kind] = style_of(fields, kind);
+    read_kind(fields, kind, lines);
+  for (const char* kind : {"parameter", "section", "intersection"}) read_kind(fields, kind, lines);
   if (fields.has("parameter")) {
     const Fields& given = fields.group("parameter");
-    lines.styles["parameter"] = style_of(given, "style");
     if (!given.has("at_u") && !given.has("at_v"))
       throw FieldError("lines.parameter", "parameter lines need 'at_u' or 'at_v'",
                        "how many, or where: parameter: { at_u: 9, at_v: [0, 0.5, 1] }");
@@ -90,17 +125,18 @@ Lines lines_of(const Fields& fields) {
   }
   if (fields.has("section")) {
     const Fields& given = fields.group("section");
-    lines.styles["section"] = style_of(given, "style");
     for (const Fields& plane : given.groups("planes"))
       lines.planes.push_back({plane.vec3("through"), plane.vec3("normal")});
   }
   if (fields.has("intersection")) {
     const Fields& given = fields.group("intersection");
-    lines.styles["intersection"] = style_of(given, "style");
     lines.with = given.references("with");
   }
   lines.hidden = hidden_of(fields);
-  if (fields.has("hidden_layers")) lines.hidden.max_layers = fields.integer("hidden_layers");
+  if (fields.has("hidden_layers")) {
+    lines.hidden.max_layers = fields.integer("hidden_layers");
+    for (auto& [kind, own] : lines.own_hidden) own.max_layers = lines.hidden.max_layers;
+  }
   return lines;
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/describe.h"
@@ -41,6 +42,12 @@ struct Lines {
   std::vector<SectionPlane> planes;      // of `section`
   std::vector<std::any> with;            // of `intersection`: geometry, as references hold it
   HiddenLines hidden;
+  std::map<std::string, HiddenLines, std::less<>> own_hidden;  // of kinds that say so themselves
+
+  const HiddenLines& hidden_of(std::string_view kind) const {
+    const auto own = own_hidden.find(kind);
+    return own == own_hidden.end() ? hidden : own->second;
+  }
 };
 
 // A helper of a geometry type, drawn beside it: control polygon, frames, comb, ...
@@ -73,6 +80,13 @@ struct Fill {
   double shade = 0.75;                  // brightness of what is turned away from the light
   std::optional<geometry::Vec3> light;  // unit, towards it; none: above the viewer, to the left
   std::optional<Hatching> hatching;
+};
+
+// How the faces look at which a section cuts an object (section.h).
+struct CutFaces {
+  bool hatched = true;
+  Hatching hatching;
+  bool own_angle = true;  // none was given: each object has another
 };
 
 struct Look {

@@ -55,9 +55,12 @@ struct Object {
   double mesh_angle = 0;      // largest turn of the normal, of curves of the tangent; 0: 10 degrees, of curves any
   bool flat_shading = false;  // mesh facets show their own normals
   uint32_t visible_to = kVisibleToAll;
-  std::vector<ClipPlane> clips;      // where it is placed: in the world, or in its group
-  std::shared_ptr<const Look> look;  // in drawings; null: the drawing's lines, no helpers
-  std::string legend;                // its entry in the legend of a drawing; empty: none
+  std::vector<ClipPlane> clips;       // where it is placed: in the world, or in its group
+  std::shared_ptr<const Look> look;   // in drawings; null: the drawing's lines, no helpers
+  std::string legend;                 // its entry in the legend of a drawing; empty: none
+  bool may_be_cut = true;             // by sections of drawings
+  std::optional<CutFaces> cut_faces;  // none: as the section says
+  int first_cut_leaf = -1;            // of a solid that a section cut: leaves from here on are what is taken away
 };
 
 // Objects placed together as one; a group may hold groups. Instances share the compiled group.
@@ -99,6 +102,8 @@ struct DefaultTaken {
   std::string text;
 };
 
+struct Section;
+
 struct Panel {
   std::string name;
   CameraPtr camera;  // for a picture of the whole page's size
@@ -107,6 +112,7 @@ struct Panel {
   bool own_camera = false;     // none: the scene's
   DrawingChoices drawing;
   std::optional<std::vector<Object>> objects;  // none: those of the scene
+  std::shared_ptr<const Section> section;      // that was applied to them; null: none
 };
 
 struct Model {

@@ -6,6 +6,7 @@
 
 #include "geometry/shapes/implicit/implicit_surface.h"
 #include "geometry/surfaces/analytic/plane.h"
+#include "render/model/section.h"
 #include "render/scene/values/types.h"
 
 namespace lekalo::render {
@@ -125,6 +126,21 @@ double sag_of_angle(const Object& object) {
   return 0.5 * scale * bounds(object.shape).diameter() * std::tan(object.mesh_angle / 4);
 }
 
+void cut_by_own_section(const Fields& fields, Objects& objects) {
+  try {
+    const size_t before = objects.size();
+    cut(objects, section_of(fields.group("section")));
+    if (objects.size() < before)
+      throw FieldError("", "this section leaves nothing of the object", "what is on the normal's side is taken away");
+    for (const Object& object : objects)
+      if (object.first_cut_leaf < 0 && !std::holds_alternative<GroupPtr>(object.shape))
+        throw FieldError("", "this section does not cut the object",
+                         "it cuts closed bodies and shapes; surfaces and curves are cut by 'clip'");
+  } catch (const FieldError& error) {
+    throw FieldError(error.field.empty() ? "section" : "section." + error.field, error.what(), error.hint);
+  }
+}
+
 Objects objects_of(const Fields& fields) {
   Object object;
   if (fields.has("material")) object.material = fields.get<MaterialPtr>("material");
@@ -140,6 +156,8 @@ Objects objects_of(const Fields& fields) {
     for (const Fields& plane : fields.groups("clip"))
       object.clips.push_back({plane.vec3("through"), plane.vec3("normal"), plane.boolean("cap")});
   if (fields.has("transform")) object.transform = fields.transform("transform");
+  object.may_be_cut = !fields.has("section") || fields.word("section").empty();
+  if (fields.has("section_hatch")) object.cut_faces = cut_faces_of(fields, "section_hatch");
   if (fields.has("lines") || fields.has("show") || fields.has("fill")) {
     Look look;
     if (fields.has("lines")) look.lines = lines_of(fields.group("lines"));
@@ -158,8 +176,8 @@ Objects objects_of(const Fields& fields) {
     check_caps(object);
     check_unbounded(object);
     if (std::holds_alternative<GroupPtr>(object.shape))
-      for (const char* field :
-           {"back_material", "representation", "mesh", "shading", "visible_to", "clip", "lines", "show", "fill"})
+      for (const char* field : {"back_material", "representation", "mesh", "shading", "visible_to", "clip",
+                                "section_hatch", "lines", "show", "fill"})
         if (fields.given(field))
           throw FieldError(field, "'" + std::string(field) + "' is for single shapes, and this is a group",
                            "give it to the objects inside the group");
@@ -175,6 +193,7 @@ Objects objects_of(const Fields& fields) {
     }
     all.push_back(object);
   }
+  if (fields.has("section") && object.may_be_cut) cut_by_own_section(fields, all);
   return all;
 }
 
@@ -212,6 +231,10 @@ TypeDeclaration object_type() {
                   {"cap", boolean(), "close the cut of a body by a plane face", false, "false"}}),
           "planes that cut away what lies beyond them; they stand where the object is placed, in the world or in its "
           "group, and its own transform does not move them")
+      .optional("section", group(section_fields(false)).or_word({"none"}),
+                "what is taken away of it to show its inside, the cut faces hatched in drawings; none: sections of its "
+                "panel leave it whole, as shafts, bolts and ribs are")
+      .optional("section_hatch", section_hatch(), "of its cut faces, whichever section cuts it; none: no lines")
       .optional("transform", transform(), "steps in the order in which they happen")
       .optional("lines", group(lines_fields()),
                 "lines that are seen of it: only those given; without it pictures show curves and points, drawings "

@@ -49,6 +49,8 @@ std::vector<Field> drawing_fields() {
        "list of the objects that have a `legend`",
        false,
        {}},
+      {"center_lines", boolean(), "axes of all that is round, in the style `center_line_style`", false, "false"},
+      {"center_line_style", style, "of centre lines", false, "axis"},
       {"annotations", references({Category::annotation}).count(0), "labels, arrows, dimensions, ...", false, {}}};
 }
 
@@ -74,6 +76,7 @@ DrawingChoices drawing_of(const Fields& fields) {
     if (given.has("title")) legend.title = given.get<TextTemplate>("title");
     legend.style = style_of(given, "style");
   }
+  if (fields.boolean("center_lines")) drawing.center_lines = style_of(fields, "center_line_style");
   if (fields.has("annotations"))
     for (const std::any& one : fields.references("annotations"))
       drawing.annotations.push_back(std::any_cast<const Annotation&>(one));

@@ -48,6 +48,8 @@ struct DrawingChoices {
   std::optional<GraphAxes> axes;
   std::optional<Legend> legend;
   std::vector<Annotation> annotations;
+  std::optional<Style> center_lines;  // axes of what is round; none: not drawn
+  std::string title;                  // TeX, above the view; empty: none
 };
 
 // Where panels stand: rows from the top, each from the left; an empty name leaves the place free.
@@ -55,6 +57,7 @@ struct Layout {
   std::vector<std::vector<std::string>> rows;
   double scale = 0;              // millimetres of paper for one of the model, info.unit decides; 0: as large as fits
   double gap = 5;                // between panels
+  std::vector<double> columns;   // widths in proportion; empty: equal. Not with a scale
   Place scale_place, gap_place;  // in the scene file, for messages; none where they are not given
 };
 

@@ -24,6 +24,18 @@ class Compare(unittest.TestCase):
         self.assertEqual(compare(pair[0], pair[0]).returncode, 0)
         self.assertEqual(compare(*pair, "--metric", "ssim", "--threshold", 0.999).returncode, 1)
 
+    def test_a_crop_is_compared_with_its_part_of_the_whole(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "s.yaml").write_text("lekalo: 1\ngeometry: { b: { type: ball, radius: 1 } }\nobjects: [{ shape: b }]\n"
+                                           "image: { size: [40, 30], samples: 1 }\n")
+            for name, crop in (("whole", []), ("part", ["--crop", "10,8,30,24"])):
+                done = subprocess.run([LEKALO, "render", folder / "s.yaml", "-o", folder / f"{name}.exr", *crop], capture_output=True)
+                self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(compare(folder / "whole.exr", folder / "part.exr").returncode, 0)
+            found = json.loads(compare(folder / "part.exr", folder / "whole.exr", "--json").stdout)
+            self.assertEqual((found["passed"], found["size"]), (True, [20, 16]))
+
     def test_json_has_the_published_figures(self):
         result = compare(PAIRS / "hdr1_reference.exr", PAIRS / "hdr1_test.exr", "--json")
         self.assertEqual(result.returncode, 1)

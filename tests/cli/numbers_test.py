@@ -125,7 +125,8 @@ geometry:
         self.assertEqual(sorted(face["name"] for face in block["faces"]),
                          ["x_max", "x_min", "y_max", "y_min", "z_max", "z_min"])
         for edge in block["edges"]:
-            self.assertEqual(len(edge["faces"]), 2)
+            self.assertEqual((len(edge["faces"]), edge["curve"]), (2, "line"))
+        self.assertEqual({face["surface"] for face in block["faces"]}, {"plane"})
         # Every edge is used once along and once against its direction; four of each face's loop, end to end.
         uses = [use for face in block["faces"] for loop in face["coedges"] for use in loop]
         self.assertEqual(sorted((use["edge"], use["forward"]) for use in uses),
@@ -145,7 +146,7 @@ geometry:
             area = sum(p[a] * q[b] - p[b] * q[a] for p, q in zip(corners, corners[1:] + corners[:1]))
             self.assertGreater(side * area, 0, face["name"])
         text = self.run_program("measure", "scene.yaml", "block", "--topology")[0]
-        self.assertRegex(text, r"z_max +\+ loop( [+-]\d+){4}\n")
+        self.assertRegex(text, r"z_max +plane +\+ loop( [+-]\d+){4}\n")
         ring = self.measure("ring", "--topology")
         # Golovanov 2016, 5.6e: the loop of a torus +e1 +e2 -e1 -e2.
         (loop,) = ring["faces"][0]["coedges"]

@@ -197,7 +197,8 @@ int run(const Options& options) {
                             (options.intersect.size() == 1 && has_faces(find_geometry(scene, options.intersect[0]))));
   if (options.order && !of_pair)
     throw UsageError("--order belongs to --against NAME, another curve or surface of the scene");
-  if (options.samples && !of_pair && !of_contours)
+  const bool of_solid = is_solid_without_faces(entity) && (!options.section.empty() || !options.silhouette.empty());
+  if (options.samples && !of_pair && !of_contours && !of_solid)
     throw UsageError(
         "--samples belongs to --against NAME, another curve or surface of the scene, and to intersections, sections "
         "and silhouettes of surfaces");
@@ -252,6 +253,12 @@ int run(const Options& options) {
     else
       out = surface_intersections(options.name, entity, options.intersect[0],
                                   find_geometry(scene, options.intersect[0]), same_point, samples);
+    print = print_contours;
+  } else if ((!options.section.empty() || !options.silhouette.empty()) && is_solid_without_faces(entity)) {
+    const int samples = options.samples.value_or(0);
+    out = !options.section.empty()
+              ? section_of_solid(options.name, entity, options.section, samples)
+              : silhouette_of_solid(options.name, entity, options.silhouette, scene.model->camera.get(), samples);
     print = print_contours;
   } else if (!options.section.empty() || !options.silhouette.empty()) {
     throw UsageError(

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "geometry/contour.h"
 #include "geometry/mesh.h"
 #include "geometry/queries/closest/distance.h"
 #include "json.h"
@@ -81,6 +82,16 @@ ordered_json surface_self_intersections(const std::string& name, const render::E
 // Where the plane "X,Y,Z,NX,NY,NZ" cuts a surface or body.
 ordered_json section(const std::string& name, const render::Entity& entity, const std::string& plane, int samples);
 // The silhouette of a surface or body: `view` is "camera", a direction of sight "DX,DY,DZ", or "eye:X,Y,Z".
+// Adds to every point its coordinates in the plane of a section: along the x and y of the frame about its normal.
+void put_plane_coordinates(ordered_json& rows, const geometry::Vec3& origin, const geometry::Vec3& normal);
+// What --silhouette says: camera, DX,DY,DZ or eye:X,Y,Z.
+geometry::ViewOf view_asked(const std::string& view, const render::Camera* camera);
+// The same of shapes and meshes.
+bool is_solid_without_faces(const render::Entity& entity);
+ordered_json section_of_solid(const std::string& name, const render::Entity& entity, const std::string& plane,
+                              int samples);
+ordered_json silhouette_of_solid(const std::string& name, const render::Entity& entity, const std::string& view,
+                                 const render::Camera* camera, int samples);
 ordered_json silhouette_seen(const std::string& name, const render::Entity& entity, const std::string& view,
                              const render::Camera* camera, int samples);
 void print_contours(const ordered_json& found);

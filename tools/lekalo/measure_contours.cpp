@@ -153,7 +153,11 @@ std::string parameters(const ordered_json& row) {
 }
 
 void print_row(const char* label, const ordered_json& row) {
-  fmt::print("    {:<8} {}{}\n", label, digits(vector_of(row["point"])), parameters(row));
+  std::string in_plane;
+  if (row.contains("in_plane"))
+    in_plane = fmt::format("  in the plane {} {}", digits(row["in_plane"][0].get<double>()),
+                           digits(row["in_plane"][1].get<double>()));
+  fmt::print("    {:<8} {}{}{}\n", label, digits(vector_of(row["point"])), parameters(row), in_plane);
 }
 
 }  // namespace
@@ -178,18 +182,30 @@ ordered_json surface_self_intersections(const std::string& name, const render::E
                [&] { return rows(self_intersection(surface_of(name, entity), tolerance), samples); });
 }
 
+void put_plane_coordinates(ordered_json& rows, const Vec3& origin, const Vec3& normal) {
+  if (!(glm::length(normal) > 0)) return;
+  const geometry::Frame frame = geometry::frame_about(origin, glm::normalize(normal));
+  if (rows.is_object() && rows.contains("point")) {
+    const Vec3 off = vector_of(rows["point"]) - origin;
+    rows["in_plane"] = {glm::dot(off, frame.x), glm::dot(off, frame.y)};
+  }
+  if (rows.is_structured())
+    for (ordered_json& one : rows) put_plane_coordinates(one, origin, normal);
+}
+
 ordered_json section(const std::string& name, const render::Entity& entity, const std::string& plane, int samples) {
   const std::vector<double> p = parse_numbers(plane, 6, "--section");
   const Vec3 origin{p[0], p[1], p[2]}, normal{p[3], p[4], p[5]};
-  return asked(name, "section", plane, [&] {
+  ordered_json out = asked(name, "section", plane, [&] {
     if (const BodyPtr* body = std::get_if<BodyPtr>(&entity))
       return rows(plane_section(**body, origin, normal), **body, nullptr, samples);
     return rows(plane_section(surface_of(name, entity), origin, normal), samples);
   });
+  put_plane_coordinates(out, origin, normal);
+  return out;
 }
 
-ordered_json silhouette_seen(const std::string& name, const render::Entity& entity, const std::string& view,
-                             const render::Camera* camera, int samples) {
+geometry::ViewOf view_asked(const std::string& view, const render::Camera* camera) {
   geometry::ViewOf seen;
   if (view == "camera") {
     if (!camera) throw UsageError("the scene has no camera: --silhouette takes DX,DY,DZ or eye:X,Y,Z too");
@@ -201,6 +217,12 @@ ordered_json silhouette_seen(const std::string& name, const render::Entity& enti
     const std::vector<double> p = parse_numbers(seen.central ? view.substr(4) : view, 3, "--silhouette");
     seen.direction_or_eye = {p[0], p[1], p[2]};
   }
+  return seen;
+}
+
+ordered_json silhouette_seen(const std::string& name, const render::Entity& entity, const std::string& view,
+                             const render::Camera* camera, int samples) {
+  const geometry::ViewOf seen = view_asked(view, camera);
   return asked(name, "silhouette", view, [&] {
     if (const BodyPtr* body = std::get_if<BodyPtr>(&entity))
       return rows(silhouette(**body, seen), **body, nullptr, samples);

@@ -7,6 +7,9 @@
 #include "command.h"
 #include "geometry/bodies/topology/characteristics.h"
 #include "geometry/body.h"
+#include "geometry/queries/differential/roundness.h"
+#include "geometry/queries/quadrics/canonical_surface.h"
+#include "geometry/queries/quadrics/conic_of_curve.h"
 #include "measure.h"
 
 namespace lekalo::command {
@@ -24,6 +27,45 @@ ordered_json name_or_null(const geometry::Origin& origin) {
 
 const char* kind_name(geometry::EdgeKind kind) {
   return kind == geometry::EdgeKind::seam ? "seam" : kind == geometry::EdgeKind::pole ? "pole" : "regular";
+}
+
+// What a surface or a curve is, in a word.
+const char* shape_of(const geometry::SurfacePtr& surface) {
+  using Kind = geometry::CanonicalSurface::Kind;
+  const auto known = geometry::canonical(surface);
+  if (!known) return surface->as_nurbs() ? "spline" : "surface";
+  switch (known->kind) {
+    case Kind::plane:
+      return "plane";
+    case Kind::cone:
+      return known->widening == 0 ? "cylinder" : "cone";
+    case Kind::ellipsoid:
+      return known->scale() ? "sphere" : "ellipsoid";
+    case Kind::torus:
+      return "torus";
+    case Kind::saddle:
+      return "saddle";
+    case Kind::paraboloid:
+      return "paraboloid";
+    default:
+      return "hyperboloid";
+  }
+}
+
+const char* shape_of(const geometry::Curve& curve) {
+  constexpr int kSamples = 16;
+  constexpr double kStraight = 1e-12;  // of the length
+  const geometry::Interval t = curve.domain();
+  const Vec3 begin = curve.point(t.lo), chord = curve.point(t.hi) - begin;
+  bool straight = true;
+  for (int k = 1; k < kSamples && straight; ++k) {
+    const Vec3 off = curve.point(t.lo + t.width() * k / kSamples) - begin;
+    straight = glm::length(glm::cross(off, chord)) <= kStraight * glm::dot(chord, chord);
+  }
+  if (straight && glm::dot(chord, chord) > 0) return "line";
+  if (geometry::is_round(curve)) return "circle";
+  if (const auto conic = geometry::conic_of(curve)) return geometry::name(conic->kind).data();
+  return curve.as_nurbs() ? "spline" : "curve";
 }
 
 // The loops of a face, the outer one first: the uses of edges in their order, with the face on the left.
@@ -47,6 +89,7 @@ ordered_json faces_of(const Body& body) {
       for (int coedge : body.loops[loop].coedges) edges.insert(body.coedges[coedge].edge);
     faces.push_back({{"index", i},
                      {"name", name_or_null(face.origin)},
+                     {"surface", shape_of(face.surface)},
                      {"shell", face.shell},
                      {"loops", face.loops.size()},
                      {"edges", edges},
@@ -65,6 +108,7 @@ ordered_json edges_of(const Body& body) {
     edges.push_back({{"index", i},
                      {"name", name_or_null(edge.origin)},
                      {"kind", kind_name(edge.kind)},
+                     {"curve", edge.kind == geometry::EdgeKind::pole ? "point" : shape_of(*edge.curve)},
                      {"start", edge.start},
                      {"end", edge.end},
                      {"faces", faces},
@@ -232,13 +276,13 @@ void print_topology(const ordered_json& found) {
   fmt::print("{}, {}\n{}\n", counted(found["shells"], "shell", "shells"), counted(found["loops"], "loop", "loops"),
              counted(found["faces"].size(), "face", "faces"));
   for (const auto& face : found["faces"])
-    fmt::print("  {:<3} {:<16} {} {}\n", face["index"].get<int>(), name_text(face), sign(face["forward"]),
-               loops_text(face["coedges"]));
+    fmt::print("  {:<3} {:<16} {:<9} {} {}\n", face["index"].get<int>(), name_text(face),
+               face["surface"].get<std::string>(), sign(face["forward"]), loops_text(face["coedges"]));
   fmt::print("{}\n", counted(found["edges"].size(), "edge", "edges"));
   for (const auto& edge : found["edges"])
-    fmt::print("  {:<3} {:<16} {:<8} vertices {} {}, faces {}\n", edge["index"].get<int>(), name_text(edge),
-               edge["kind"].get<std::string>(), edge["start"].get<int>(), edge["end"].get<int>(),
-               numbers_text(edge["faces"]));
+    fmt::print("  {:<3} {:<16} {:<8} {:<9} vertices {} {}, faces {}\n", edge["index"].get<int>(), name_text(edge),
+               edge["kind"].get<std::string>(), edge["curve"].get<std::string>(), edge["start"].get<int>(),
+               edge["end"].get<int>(), numbers_text(edge["faces"]));
   fmt::print("{}\n", counted(found["vertices"].size(), "vertex", "vertices"));
   for (const auto& vertex : found["vertices"]) {
     const auto& p = vertex["point"];

@@ -10,6 +10,7 @@
 #include "geometry/expression/nearest_name.h"
 #include "render/image/image_error.h"
 #include "render/scene/manual/manual.h"
+#include "render/scene/yaml/data_path.h"
 
 namespace lekalo::command {
 
@@ -30,6 +31,25 @@ void write_reference(const std::filesystem::path& folder) {
   }
 }
 
+// A file that comes with the program, studio/softbox: what it says about itself, and its parameters.
+bool describe_shipped(const std::string& name) {
+  if (name.find('/') == std::string::npos || name.find("..") != std::string::npos) return false;
+  for (const std::filesystem::path& folder : render::data_folders()) {
+    const std::filesystem::path path = folder / (name.ends_with(".yaml") ? name : name + ".yaml");
+    std::ifstream file(path);
+    if (!file) continue;
+    fmt::print("{} (shipped file)\n", name);
+    bool begins = true;
+    for (std::string line; std::getline(file, line);) {
+      begins = begins && line.starts_with('#');
+      if (begins) fmt::print("  {}\n", line.substr(std::min<size_t>(2, line.size())));
+      if (line.starts_with("parameters:")) fmt::print("\n  {}\n", line);
+    }
+    return true;
+  }
+  return false;
+}
+
 int describe_one(const std::string& name) {
   bool found = false;
   std::vector<std::string> known;
@@ -47,6 +67,15 @@ int describe_one(const std::string& name) {
     fmt::print("{}{}", found ? "\n" : "", render::description_of_formulas());
     found = true;
   }
+  if (name == "repeat") {
+    fmt::print("{}{}", found ? "\n" : "", render::description_of_repeat());
+    found = true;
+  }
+  if (const std::string style = render::description_of_style(name); !style.empty()) {
+    fmt::print("{}{}", found ? "\n" : "", style);
+    found = true;
+  }
+  found = describe_shipped(name) || found;
   if (found) return kDone;
   const auto nearest = geometry::nearest_name(name, known);
   std::string meant;

@@ -1,10 +1,13 @@
 #include "render/drawing/annotations/annotations.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
 #include "render/drawing/annotations/annotation_work.h"
+#include "render/drawing/annotations/center_lines.h"
 #include "render/drawing/annotations/color_bar.h"
+#include "render/drawing/annotations/cutting_plane.h"
 #include "render/drawing/annotations/dimensions.h"
 #include "render/drawing/annotations/light_path.h"
 #include "render/drawing/annotations/page_shapes.h"
@@ -18,6 +21,8 @@ namespace {
 // Millimetres.
 constexpr double kTextOff = 0.7;   // between a brace and the text at its tip
 constexpr double kEndOn = 0.5;     // arrows shorter than this have no room for a name
+constexpr double kTitle = 1.2;     // size of titles, of labels
+constexpr double kTitleOff = 3;    // between a view and its title
 constexpr double kLastPart = 0.4;  // of a light path, of the scene's radius
 
 // What is drawn on the page from the pictures of its points has none where these are behind the eye; lines in space are
@@ -183,9 +188,35 @@ void add_brace(AnnotationWork& work) {
   work.add(std::move(label));
 }
 
+// Above all that the view shows.
+void add_title(const View& view, LineWork& lines, PageWork& page) {
+  if (view.model.drawing.title.empty()) return;
+  SheetBox box;
+  const Box3 shown = bounds(view.model);
+  for (int k = 0; k < 8 && shown.bounded() && !shown.empty(); ++k)
+    box.include(view.place(
+        Vec3(k & 1 ? shown.hi.x : shown.lo.x, k & 2 ? shown.hi.y : shown.lo.y, k & 4 ? shown.hi.z : shown.lo.z)));
+  if (!(box.lo.x < box.hi.x)) return;
+  double top = box.lo.y;
+  for (const Label& label : page.labels) top = std::min(top, label.at.y - label.text.ascent);
+  for (const Vec2& place : page.reach) top = std::min(top, place.y);
+  for (const Vec3& anchor : page.anchors)
+    if (view.camera.project(anchor).visible_side) top = std::min(top, view.place(anchor).y);
+  Annotation annotation;
+  annotation.type = "title";
+  annotation.style = view.model.styles.at("label");
+  annotation.style.text_size *= kTitle;
+  AnnotationWork work(view, annotation, lines, page);
+  Label label = work.page_label(view.model.drawing.title, {0.5 * (box.lo.x + box.hi.x), top});
+  label.side = "above";
+  label.distance = kTitleOff;
+  work.add(std::move(label));
+}
+
 }  // namespace
 
 void add_annotations(const View& view, LineWork& lines, PageWork& page) {
+  add_center_lines(view, lines, page);
   std::unique_ptr<const World> world;  // one for all light paths
   for (const Annotation& annotation : view.model.drawing.annotations) {
     AnnotationWork work(view, annotation, lines, page);
@@ -213,6 +244,8 @@ void add_annotations(const View& view, LineWork& lines, PageWork& page) {
       add_leader(work);
     } else if (type == "brace") {
       add_brace(work);
+    } else if (type == "cutting_plane") {
+      add_cutting_plane(work);
     } else if (type == "color_bar") {
       add_color_bar(work);
     } else if (type == "linear_dimension") {
@@ -225,6 +258,7 @@ void add_annotations(const View& view, LineWork& lines, PageWork& page) {
     }
     work.finish();
   }
+  add_title(view, lines, page);
 }
 
 }  // namespace lekalo::render

@@ -276,6 +276,9 @@ void add_round_dimension(AnnotationWork& work, bool diameter) {
   // The point of the circle that is seen in this direction.
   double t = std::atan2(-cross(way, x), cross(way, y));
   if (glm::dot(std::cos(t) * x + std::sin(t) * y, way) < 0) t += kPi;
+  // An arc that does not go there is met in its middle.
+  const Interval arc = circle.domain();
+  if (!diameter && std::fmod(t - arc.lo + 2 * kTwoPi, kTwoPi) > arc.width()) t = arc.middle();
   const auto on = [&](double at) { return view.place(frame.point(radius * Vec3(std::cos(at), std::sin(at), 0))); };
   const Vec2 near = on(t), far = on(t + kPi);
   const double span = diameter ? glm::length(near - far) : glm::length(near - center);

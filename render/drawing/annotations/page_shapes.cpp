@@ -73,7 +73,10 @@ Circle circle_of(const Fields& f) {
   }
   const Interval t = curve->domain();
   const auto at = [&](double x) { return curve->point(t.lo + x * t.width()); };
-  return arc_through(at(0), at(0.31), at(0.67));
+  const Circle part = arc_through(at(0), at(0.31), at(0.67));
+  constexpr double kClosed = 1e-6;  // of the radius
+  if (glm::length(at(1) - at(0)) > kClosed * part.radius()) return arc_through(at(0), at(0.5), at(1));
+  return Circle(part.frame(), part.radius(), {0, kTwoPi});
 }
 
 std::string dimension_number(double value, int decimals) {

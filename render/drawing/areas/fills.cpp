@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "geometry/shapes/csg/csg.h"
 #include "render/drawing/areas/regions.h"
 #include "render/material.h"
 
@@ -147,6 +148,7 @@ class Filling {
     if (fill.shading == Fill::Shading::gradient) seen.label.face = one_faces_.first(point.object, point.face);
     if (fill.shading == Fill::Shading::two_tone || (fill.hatching && fill.hatching->shade_only))
       seen.label.shade = cosine < 0;
+    seen.label.cut = is_cut_face(*world_.objects()[static_cast<size_t>(point.object)], point.face);
     seen.lambert = std::max(cosine, 0.0);
     seen.color = rgb_of(world_.material(point, front).albedo(point, Wavelengths{}));
     return seen;
@@ -155,6 +157,12 @@ class Filling {
     const Interaction seen = seen_at(place);
     if (seen.label.object >= 0) colors_.emplace(std::pair(seen.label.object, seen.label.back), seen.color);
     return seen.label;
+  }
+  // Crossings tell the leaf of the solid (csg.h).
+  static bool is_cut_face(const Object& object, int face) {
+    if (object.first_cut_leaf < 0) return false;
+    const auto* solid = dynamic_cast<const Csg*>(std::get<ShapePtr>(object.shape).get());
+    return solid && face % solid->leaf_count() >= object.first_cut_leaf;
   }
   static Vec3 rgb_of(const Spectrum& s) { return {s[0], s[1], s[2]}; }
 
@@ -177,10 +185,12 @@ class Filling {
     const auto part = [&](const std::function<bool(const RegionLabel&)>& belongs) {
       return loops([&](const RegionLabel& label) { return label.object == object && belongs(label); });
     };
+    const Object& shown = *world_.objects()[static_cast<size_t>(object)];
+    const bool filled = view_.model.drawing.ground == Ground::fill;
     std::map<bool, RegionLabel> sides;
     for (const RegionLabel& label : labels) sides.emplace(label.back, label);
     for (const auto& [back, side] : sides) {
-      if (fill.shading == Fill::Shading::none) break;
+      if (!filled || fill.shading == Fill::Shading::none) break;
       const Vec3 color = color_of(side);
       const auto lit = part([&](const RegionLabel& label) { return label.back == back; });
       group.items.emplace_back(SheetPath{lit, {}, Brush{rgb(color), 1}, {}});
@@ -196,17 +206,21 @@ class Filling {
           if (area.gradient) group.items.emplace_back(std::move(area));
         }
     }
-    if (fill.hatching) {
-      const Hatching& hatching = *fill.hatching;
-      const LineLook pen = drawn_look(hatching.style);
-      const std::vector<Path> area =
-          part([&](const RegionLabel& label) { return label.shade || !hatching.shade_only; });
-      SheetGroup lines{"hatching", "", {}, {}, {}};
-      add_hatching(area, hatching.angle, hatching.spacing, pen, lines.items);
-      if (hatching.crossed) add_hatching(area, hatching.angle + kPi / 2, hatching.spacing, pen, lines.items);
-      if (!lines.items.empty()) group.items.emplace_back(std::move(lines));
-    }
+    if (filled && fill.hatching)
+      hatch(part([&](const RegionLabel& label) { return label.shade || !fill.hatching->shade_only; }), *fill.hatching,
+            "hatching", group);
+    if (shown.first_cut_leaf >= 0 && shown.cut_faces && shown.cut_faces->hatched)
+      hatch(part([](const RegionLabel& label) { return label.cut; }), shown.cut_faces->hatching, "section_hatch",
+            group);
     if (!group.items.empty()) result_.items.emplace_back(std::move(group));
+  }
+
+  static void hatch(const std::vector<Path>& area, const Hatching& hatching, const char* kind, SheetGroup& group) {
+    const LineLook pen = drawn_look(hatching.style);
+    SheetGroup lines{kind, "", {}, {}, {}};
+    add_hatching(area, hatching.angle, hatching.spacing, pen, lines.items);
+    if (hatching.crossed) add_hatching(area, hatching.angle + kPi / 2, hatching.spacing, pen, lines.items);
+    if (!lines.items.empty()) group.items.emplace_back(std::move(lines));
   }
 
   // Along the direction of the page, or about the point, that says most of how the light falls on the area.

@@ -24,6 +24,7 @@ struct RegionLabel {
   int face = 0;
   bool back = false;   // the side with a material of its own that the normal turns away from
   bool shade = false;  // turned away from the light
+  bool cut = false;    // on a face at which a section cuts the object
   auto operator<=>(const RegionLabel&) const = default;
 };
 

@@ -363,13 +363,18 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
     return layout;
   }
 
-  // Equal shares of the page.
-  const double width =
-      (layout.width - 2 * margin - gap * static_cast<double>(columns - 1)) / static_cast<double>(columns);
+  // Shares of the page, equal ones where the scene does not say.
+  std::vector<double> widths(columns, 1.0);
+  if (!page.layout.columns.empty() && only.empty()) widths = page.layout.columns;
+  double sum = 0;
+  for (const double share : widths) sum += share;
+  for (double& share : widths) share *= (layout.width - 2 * margin - gap * static_cast<double>(columns - 1)) / sum;
   std::vector<double> heights;
   for (const auto& row : rows) {
     double tallest = 0;
-    for (const std::string& name : row) {
+    for (size_t j = 0; j < row.size(); ++j) {
+      const std::string& name = row[j];
+      const double width = widths[j];
       if (name.empty()) continue;
       Model model = model_of(page, *panels.at(name));
       const Vec2 shown = shown_box(model, FramedContent(model.objects), *model.make_camera(kTrial, kTrial), 1).size();
@@ -391,7 +396,8 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
     layout.height = 2 * margin + gap * static_cast<double>(rows.size() - 1);
     for (const double height : heights) layout.height += height;
   }
-  if (!(width > 1) || !(*std::min_element(heights.begin(), heights.end()) > 1))
+  if (!(*std::min_element(widths.begin(), widths.end()) > 1) ||
+      !(*std::min_element(heights.begin(), heights.end()) > 1))
     does_not_fit(
         page.layout.gap_place.file && gap > margin ? page.layout.gap_place : page.paper.margin_place,
         fmt::format("margins and gaps leave no room for {} panel{} in a row and {} in a column on {}", columns,
@@ -399,14 +405,14 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
         "smaller ones, or a larger `size` of the image");
   double y = margin;
   for (size_t i = 0; i < rows.size(); ++i) {
-    for (size_t j = 0; j < rows[i].size(); ++j)
+    double x = margin;
+    for (size_t j = 0; j < rows[i].size(); ++j) {
       if (!rows[i][j].empty()) {
-        PlacedPanel placed{rows[i][j],
-                           model_of(page, *panels.at(rows[i][j])),
-                           {margin + static_cast<double>(j) * (width + gap), y},
-                           {width, heights[i]}};
+        PlacedPanel placed{rows[i][j], model_of(page, *panels.at(rows[i][j])), {x, y}, {widths[j], heights[i]}};
         layout.panels.push_back(std::move(placed));
       }
+      x += widths[j] + gap;
+    }
     y += heights[i] + gap;
   }
   return layout;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/cameras/cameras.h"
+#include "render/model/section.h"
 #include "render/scene/build/builder.h"
 #include "render/scene/types/panels.h"
 #include "render/scene/types/sections.h"
@@ -46,6 +47,25 @@ void Builder::merge_styles() {
     styles_.entries.push_back(std::move(changed));
   }
 }
+
+namespace {
+
+// The sections that marks of other panels speak of.
+void give_sections(std::vector<Annotation>& annotations, const std::vector<Panel>& panels, Diagnostics& diagnostics) {
+  for (Annotation& annotation : annotations) {
+    if (annotation.type != "cutting_plane") continue;
+    const std::string& name = annotation.values.text("of");
+    const auto panel =
+        std::find_if(panels.begin(), panels.end(), [&](const Panel& one) { return one.name == name && one.section; });
+    if (panel != panels.end())
+      annotation.values.set("section", panel->section);
+    else
+      diagnostics.error(annotation.place, fmt::format("there is no panel '{}' with a section", name),
+                        "panels: { aa: { section: { planes: { normal: -y }, title: A } } }");
+  }
+}
+
+}  // namespace
 
 void Builder::build_drawing(Model& model) {
   const Value* given = section("drawing");
@@ -110,6 +130,11 @@ void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
       fill_materials(*read.objects);
       panel.objects = std::move(read.objects);
     }
+    if (read.section) {
+      if (!panel.objects) panel.objects = model.objects;
+      attempt(place, "'section'", [&] { return cut(*panel.objects, *read.section), true; });
+      panel.section = read.section;
+    }
     panel.make_camera = model.make_camera;
     panel.camera_frames = model.camera_frames;
     // A view that frames all frames what the panel shows.
@@ -134,6 +159,7 @@ void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
       const Value* own = place.find("drawing");
       if (auto made = attempt(own ? *own : place, "'drawing'", [&] { return drawing_of(merged); }))
         panel.drawing = *std::move(made);
+      panel.drawing.title = read.title;
       if (panel.camera && !panel.camera->is_graph()) {
         check_axes(own, false);
         panel.drawing.axes.reset();  // those of the page's graphs
@@ -141,6 +167,9 @@ void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
     }
     model.panels.push_back(std::move(panel));
   });
+  const std::vector<Panel> known = model.panels;
+  for (Panel& panel : model.panels) give_sections(panel.drawing.annotations, known, diagnostics_);
+  give_sections(model.drawing.annotations, known, diagnostics_);
 }
 
 bool Builder::check_panel(const Value& name) {
@@ -167,7 +196,9 @@ void Builder::build_layout(Model& model) {
   if (!given->is_map()) return;  // check_sections() speaks of it
   const auto fields = read_fields(section_declaration("layout").fields, *given, {}, "'layout'");
   if (!fields) return;
-  model.layout = layout_of(*fields);
+  const auto layout = attempt(*given, "'layout'", [&] { return layout_of(*fields); });
+  if (!layout) return;
+  model.layout = *layout;
   if (const Value* scale = given->find("scale")) model.layout.scale_place = scale->place;
   if (const Value* gap = given->find("gap")) model.layout.gap_place = gap->place;
   const Value& rows = *given->find("rows");

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "geometry/expression/nearest_name.h"
 #include "render/scene/build/builder.h"
 
 #include "geometry/bodies/booleans/solid_boundary.h"
@@ -17,6 +18,8 @@ namespace lekalo::render {
 using geometry::BodyPtr;
 
 namespace {
+
+constexpr size_t kMostNames = 5;  // in hints
 
 bool contains(std::span<const Category> categories, Category category) {
   return std::find(categories.begin(), categories.end(), category) != categories.end();
@@ -242,7 +245,8 @@ std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<c
         elsewhere                           ? fmt::format("'{}' stands under '{}'", *text, elsewhere)
         : !meant.empty()                    ? "write " + meant
         : !nearest.empty() || names.empty() ? ""
-                                            : "there are " + listed(names, 20));
+                                            : (names.size() > kMostNames ? "the nearest are " : "there are ") +
+                                                  listed(geometry::nearest_names(*text, names, kMostNames)));
     return std::nullopt;
   }
   NamedThing& thing = things->find(found.entry->key.name)->second;

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <utility>
 
+#include "geometry/expression/nearest_name.h"
 #include "geometry/external/external_curve.h"
 #include "geometry/external/external_surface.h"
 #include "geometry/queries/measures/mass_properties.h"
@@ -59,6 +60,13 @@ bool speaks_of(const Value& value, const Counters& counters, bool outermost = tr
   return false;
 }
 
+// Hints name few: the nearest, of types that would do.
+std::string some_of(const std::string& name, const std::vector<std::string>& known) {
+  constexpr size_t kMost = 5;
+  if (known.size() <= kMost) return "one of " + listed(known);
+  return fmt::format("for example {}; 'lekalo types' lists all", listed(geometry::nearest_names(name, known, kMost)));
+}
+
 // "'circle'", "an object".
 std::string name_in_messages(const TypeDeclaration& type) {
   return is_implicit(type.category) ? describe({&type.category, 1}) : "'" + type.name + "'";
@@ -95,7 +103,7 @@ const TypeDeclaration* Builder::type_of(const Value& map, std::span<const Catego
     const std::vector<std::string> fitting =
         map.entries.empty() ? std::vector<std::string>() : types_with_fields_of(map, wanted);
     diagnostics_.error(map.place, fmt::format("missing 'type' of {}", describe(wanted)),
-                       "one of " + listed(fitting.empty() ? known : fitting, 40));
+                       some_of("", fitting.empty() ? known : fitting));
     return nullptr;
   }
   const TypeDeclaration* type = find_type(name, wanted);
@@ -111,7 +119,7 @@ const TypeDeclaration* Builder::type_of(const Value& map, std::span<const Catego
     }
     const std::string nearest = suggestion(name, known);
     diagnostics_.error(place, fmt::format("unknown type '{}'{}", name, nearest),
-                       nearest.empty() ? "one of " + listed(known, 40) : "");
+                       nearest.empty() ? some_of(name, known) : "");
     return nullptr;
   }
   if (!contains(wanted, type->category) &&
@@ -119,7 +127,7 @@ const TypeDeclaration* Builder::type_of(const Value& map, std::span<const Catego
     diagnostics_.error(
         place,
         fmt::format("'{}' makes {}, but {} is wanted here", name, describe({&type->category, 1}), describe(wanted)),
-        "one of " + listed(known, 40));
+        some_of(name, known));
     return nullptr;
   }
   return type;

@@ -228,6 +228,8 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
       return std::any(all);
     }
     case Kind::reference: {
+      // A style with what goes with it: { style: thick, hidden: dashed }.
+      if (type.fields && value.is_map() && value.find("style")) return read_group(type, value, counters, "this map");
       // A slip in one of the words, where nothing has that name.
       if (value.is_scalar() && !suggestion(value.text, type.choices).empty()) {
         const Value* names = section(section_of(type.categories.front()));

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "geometry/expression/function_list.h"
+#include "render/model/styles.h"
 #include "render/scene/types/sections.h"
 #include "render/scene/values/value_text.h"
 #include "render/scene/values/words.h"
@@ -343,9 +344,54 @@ std::string description_of_formulas() {
   return text;
 }
 
+std::string description_of_repeat() {
+  return "repeat\n"
+         "  A key that makes many of one: the rest of the map is the template.\n\n"
+         "  { repeat: { i: 0..5 }, type: ball, center: [i, 0, 0], radius: 0.2 }\n\n"
+         "  { i: 0..n-1 }          whole numbers, both ends among them; the ends are formulas\n"
+         "  { i: [1, 2, 5] }       these numbers\n"
+         "  { i: 0..2, j: 0..3 }   two counters: rows, j runs within i\n\n"
+         "  A named one is a family: `hole` means all members, `hole.3` one, `hole.1.2` one of two counters,\n"
+         "  `hole.side` the side of each. In texts %i is the counter, %02i with zeros, %(2*i+1) a formula.\n"
+         "  It works in lists (objects, annotations, points, outputs), named sections, and rows of nets\n"
+         "  ({ repeat: { i: 0..5 }, row: [..] }).\n";
+}
+
+std::string description_of_style(std::string_view name) {
+  const std::string_view all = built_in_styles();
+  for (size_t begin = 0; begin < all.size();) {
+    const size_t end = std::min(all.find('\n', begin), all.size());
+    const std::string_view line = all.substr(begin, end - begin);
+    begin = end + 1;
+    if (!line.starts_with(name) || line.substr(name.size(), 1) != ":") continue;
+    const size_t value = line.find('{');
+    return fmt::format("{} (built-in style)\n  {}\n  Given under `styles` it is changed, field by field, everywhere.\n",
+                       name, line.substr(value));
+  }
+  return {};
+}
+
+namespace {
+
+std::string page_of_repeat() {
+  const std::string text = description_of_repeat();
+  return "# repeat\n\n```\n" + text.substr(text.find('\n') + 1) + "```\n";
+}
+
+std::string page_of_built_in_styles() {
+  return "# Built-in styles\n\nGiven under `styles` they are changed, field by field, everywhere; `like: thin` copies "
+         "one.\n\n```yaml" +
+         std::string(built_in_styles()) + "```\n";
+}
+
+}  // namespace
+
 std::vector<std::pair<std::string, std::string>> reference_pages() {
-  std::vector<std::pair<std::string, std::string>> pages{
-      {"sections.md", page_of_sections()}, {"formulas.md", page_of_formulas()}, {"suites.md", page_of_suites()}};
+  std::vector<std::pair<std::string, std::string>> pages{{"sections.md", page_of_sections()},
+                                                         {"formulas.md", page_of_formulas()},
+                                                         {"suites.md", page_of_suites()},
+                                                         {"repeat.md", page_of_repeat()},
+                                                         {"built_in_styles.md", page_of_built_in_styles()}};
   for (const Category category : categories_of_manual()) pages.push_back({plural(category) + ".md", page_of(category)});
   return pages;
 }

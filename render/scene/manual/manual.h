@@ -31,6 +31,12 @@ std::string description_of_section(std::string_view name);
 // How formulas are written, and all their functions.
 std::string description_of_formulas();
 
+// How `repeat` is written, and what it makes.
+std::string description_of_repeat();
+
+// A built-in style with its values; empty if there is none of this name.
+std::string description_of_style(std::string_view name);
+
 // The pages of the reference: file name and Markdown text.
 std::vector<std::pair<std::string, std::string>> reference_pages();
 

@@ -113,8 +113,28 @@ void SchemaWriter::add_common_definitions() {
                         {"repeat", ref("repeat")}}},
                       {"additionalProperties", false}};
   definitions_["place_on"] = place;
-  definitions_["place"] = any_of({ref("coordinates"), ref("reference"), ref("place_on")});
-  definitions_["place"]["description"] = "coordinates, the name of a point, or a place { of: curve, t: ... }";
+  const Json names = one_or_list({{"type", {"string", "integer", "object"}}});
+  definitions_["selector"] = {
+      {"type", "object"},
+      {"description",
+       "faces, edges or vertices of a body by what holds for all of them: { of: part, between: [end, side] }"},
+      {"properties",
+       {{"of", any_of({ref("reference"), {{"type", "object"}}})},
+        {"face", names},
+        {"edge", names},
+        {"vertex", names},
+        {"between", array_of({{"type", {"string", "integer"}}}, 2, 2)},
+        {"of_face", names},
+        {"parallel", ref("direction")},
+        {"new_in", ref("reference")},
+        {"extreme", ref("direction")},
+        {"all", one_or_list(ref("selector"))},
+        {"not", one_or_list(ref("selector"))},
+        {"repeat", ref("repeat")}}},
+      {"additionalProperties", false}};
+  definitions_["place"] = any_of({ref("coordinates"), ref("reference"), ref("place_on"), ref("selector")});
+  definitions_["place"]["description"] =
+      "coordinates, the name of a point, a place { of: curve, t: ... }, or one of a body { of: part, extreme: x }";
   const Json vector_on = {{"type", "object"},
                           {"properties",
                            {{"of", any_of({ref("reference"), {{"type", "object"}}})},
@@ -237,6 +257,8 @@ Json SchemaWriter::single(const FieldType& type) {
       if (std::find(type.categories.begin(), type.categories.end(), Category::point) != type.categories.end())
         choices.push_back(ref("coordinates"));
       if (!section_of(type.categories.front())) choices.erase(choices.begin());
+      if (is_geometry(type.categories.front())) choices.push_back(ref("selector"));
+      if (type.fields) choices.push_back(map_of(*type.fields));
       const Json one = any_of(std::move(choices));
       return type.kind == Kind::references ? one_or_list(one) : one;
     }
@@ -390,7 +412,8 @@ Json SchemaWriter::section(const SectionDeclaration& declared) {
       return map_of(declared.fields);
     case Shape::named: {
       std::vector<Json> choices{thing(declared.categories)};
-      if (declared.name == "geometry") choices.insert(choices.end(), {ref("coordinates"), ref("place_on")});
+      if (declared.name == "geometry")
+        choices.insert(choices.end(), {ref("coordinates"), ref("place_on"), ref("selector")});
       return {{"type", "object"}, {"additionalProperties", any_of(std::move(choices))}};
     }
     case Shape::list:

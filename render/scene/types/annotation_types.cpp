@@ -261,6 +261,15 @@ TypeDeclaration color_bar() {
   });
 }
 
+TypeDeclaration cutting_plane() {
+  TypeDeclaration type = annotation(
+      "cutting_plane",
+      "Where the section of another panel cuts: its line with thick ends, the arrows of the viewer, and its letter.",
+      "thick");
+  type.field("of", text(), "name of the panel that has the section");
+  return finish(type);
+}
+
 constexpr double kNothing = 1e-12;  // of the lengths from which a size is computed
 constexpr double kNoAngle = 1e-9;   // radians
 
@@ -314,6 +323,7 @@ std::vector<TypeDeclaration> annotation_types() {
           angle_dimension(),
           knots_annotation(),
           light_path(),
+          cutting_plane(),
           color_bar()};
 }
 

@@ -123,7 +123,9 @@ TypeDeclaration frames() {
       .field("count", integer().between(1, 10000), "how many, evenly spaced in arc length", "9")
       .optional("at", numbers(), "at these parameters t instead")
       .field("length", length().positive(), "of the vectors, in scene units", "1")
-      .field("label", choice({"none", "first", "last", "all"}), "which frames have names at their vectors", "none");
+      .field("label", choice({"none", "first", "last", "all"}), "which frames have names at their vectors", "none")
+      .field("names", labels().count(3, 3), "of the tangent, the normal and the binormal",
+             "['$\\mathbf{t}$', '$\\mathbf{n}$', '$\\mathbf{b}$']");
   finish(type);
   return type.built_by([build = type.build](const Fields& f) -> std::any {
     if ((f.text("kind") == "on_surfaces") != f.has("surfaces"))

@@ -1,8 +1,24 @@
 #include "render/scene/types/panels.h"
 
+#include <algorithm>
+#include <memory>
+#include <string>
+
 namespace lekalo::render {
 
 using namespace geometry;
+
+namespace {
+
+std::shared_ptr<const Section> section_in(const Fields& f) {
+  try {
+    return std::make_shared<const Section>(section_of(f.group("section")));
+  } catch (const FieldError& error) {
+    throw FieldError(error.field.empty() ? "section" : "section." + error.field, error.what(), error.hint);
+  }
+}
+
+}  // namespace
 
 TypeDeclaration panel_type() {
   TypeDeclaration type =
@@ -10,6 +26,8 @@ TypeDeclaration panel_type() {
   return type.optional("camera", reference({Category::camera}), "its view; the scene's camera by default")
       .optional("drawing", group(drawing_fields()), "what differs from the scene's `drawing`")
       .optional("objects", references({Category::object}).count(0), "what it shows instead of the scene's objects")
+      .optional("section", group(section_fields(true)), "what is taken away of its solids to show their inside")
+      .optional("title", label(), "above it; of a section with a title A it is A–A by default")
       .built_by([](const Fields& f) -> std::any {
         PanelAsRead panel;
         if (f.has("camera")) panel.camera = f.get<CameraFactory>("camera");
@@ -21,6 +39,11 @@ TypeDeclaration panel_type() {
             panel.objects->insert(panel.objects->end(), some.begin(), some.end());
           }
         }
+        if (f.has("section")) panel.section = section_in(f);
+        if (f.has("title"))
+          panel.title = f.get<TextTemplate>("title").text();
+        else if (panel.section && !panel.section->title.empty())
+          panel.title = panel.section->title + "–" + panel.section->title;
         return panel;
       });
 }
@@ -29,7 +52,12 @@ std::vector<Field> layout_fields() {
   return {{"rows", name_rows(), "names of panels, row by row from the top; `empty` leaves a place free", true, {}},
           {"scale", number().positive().or_word({"fit"}),
            "of every panel: 1/2 draws a length of 10 mm with 5 mm; fit: as large as there is room", false, "fit"},
-          {"gap", page_length().non_negative(), "between panels", false, "5 mm"}};
+          {"gap", page_length().non_negative(), "between panels", false, "5 mm"},
+          {"columns",
+           numbers().positive().count(1),
+           "widths of the columns in proportion, without a scale; equal by default",
+           false,
+           {}}};
 }
 
 Layout layout_of(const Fields& fields) {
@@ -40,6 +68,14 @@ Layout layout_of(const Fields& fields) {
       if (name == "empty") name.clear();
   if (fields.word("scale").empty()) layout.scale = fields.number("scale");
   layout.gap = fields.number("gap");
+  if (fields.has("columns")) layout.columns = fields.numbers("columns");
+  size_t most = 0;
+  for (const auto& row : layout.rows) most = std::max(most, row.size());
+  if (!layout.columns.empty() && layout.columns.size() != most)
+    throw FieldError("columns", "the rows have " + std::to_string(most) + " columns, this gives the widths of " +
+                                    std::to_string(layout.columns.size()));
+  if (!layout.columns.empty() && layout.scale > 0)
+    throw FieldError("columns", "with a scale the columns are as wide as what stands in them", "leave one of them out");
   return layout;
 }
 

@@ -1,10 +1,13 @@
 // Panels of scene files until the scene's own drawing, camera and picture are known.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "render/cameras/cameras.h"
 #include "render/model/objects.h"
+#include "render/model/section.h"
 
 namespace lekalo::render {
 
@@ -12,6 +15,8 @@ struct PanelAsRead {
   std::optional<CameraFactory> camera;
   std::optional<Objects> objects;
   std::optional<geometry::Fields> drawing;  // by drawing_fields(); what it does not say the scene's drawing does
+  std::shared_ptr<const Section> section;   // null: none
+  std::string title;                        // empty: none
 };
 
 std::vector<geometry::Field> layout_fields();

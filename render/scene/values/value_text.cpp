@@ -106,7 +106,7 @@ std::string plain_value_text(const FieldType& type) {
     case Kind::formulas:
       return "formulas of " + listed(type.variables) + count_text(type);
     case Kind::reference:
-      return describe(type.categories) + ": name or map";
+      return describe(type.categories) + ": name or map" + (type.fields ? ", or { style, hidden }" : "");
     case Kind::references:
       return "names or maps of " + describe(type.categories);
     case Kind::group:

@@ -1,0 +1,81 @@
+"""Sections of drawings: what is taken away, what is hatched, where it is marked; sections of solids in numbers."""
+
+import math
+import re
+import unittest
+
+from program import ProgramTest
+
+PART = """
+  block: { type: box, size: [4, 4, 4] }
+  bore: { type: cylinder_body, radius: 1, axis: { through: [2, 2, 0], along: z }, heights: [-1, 5] }
+  part: { type: difference, of: block, minus: bore }
+"""
+
+
+class Sections(ProgramTest):
+    def draw(self, objects, drawing="", panels=""):
+        self.write("s.yaml", f"lekalo: 1\ngeometry: {PART}objects: {objects}\ncamera: {{ view: front }}\n{drawing}{panels}"
+                   "image: { size: [80 mm, auto] }\n")
+        self.run_program("draw", "s.yaml", "-o", "s.svg")
+        return (self.folder / "s.svg").read_text()
+
+    def hatching(self, svg):
+        """The hatching lines of the cut faces, as (x, y, x, y)."""
+        group = re.search(r'<g class="section_hatch".*?</g>', svg, re.S)
+        self.assertIsNotNone(group, svg[:2000])
+        numbers = r"([-\d.]+)[ ,]([-\d.]+)"
+        return [tuple(map(float, found)) for found in re.findall(rf'd="M ?{numbers} ?L ?{numbers}', group.group(0))]
+
+    def test_cut_faces_alone_are_hatched(self):
+        section = "[{ shape: part, section: { planes: { through: [2, 2, 2], normal: -y }, hatch: { angle: 0, spacing: 1 mm } } }]"
+        lines = self.hatching(self.draw(section))
+        # The front is 4 wide, the bore 2: each hatching line is one of the two walls, a quarter of the whole width long.
+        lengths = [abs(line[2] - line[0]) for line in lines]
+        self.assertGreater(len(lengths), 20)
+        self.assert_near(max(lengths), min(lengths), 0.02)
+        wide = max(max(line[0], line[2]) for line in lines) - min(min(line[0], line[2]) for line in lines)
+        self.assert_near(max(lengths) / wide, 0.25, 1e-3)
+
+    def test_what_is_not_hatched_or_cut(self):
+        plane = "planes: { through: [2, 2, 2], normal: -y }"
+        self.assertNotIn("section_hatch", self.draw(f"[{{ shape: part, section: {{ {plane}, hatch: none }} }}]"))
+        self.assertNotIn("section_hatch", self.draw(f"[{{ shape: part, section_hatch: none, section: {{ {plane} }} }}]"))
+        panels = f"panels: {{ a: {{ section: {{ {plane}, title: A }} }} }}\n"
+        self.assertIn("section_hatch", self.draw("[{ shape: part }]", panels=panels))
+        self.assertNotIn("section_hatch", self.draw("[{ shape: part, section: none }]", panels=panels))
+
+    def test_errors(self):
+        for section, message in (("{ hatch: none }", "one of 'planes', 'path' and 'cut_away'"),
+                                 ("{ planes: { through: [0, 9, 0], normal: y } }", "does not cut"),
+                                 ("{ planes: { through: [0, 9, 0], normal: -y } }", "leaves nothing"),
+                                 ("{ path: [[0, 2], [4, 2]] }", "needs 'towards'"),
+                                 ("{ cut_away: block, towards: x }", "goes with 'path'")):
+            self.write("e.yaml", f"lekalo: 1\ngeometry: {PART}objects: [{{ shape: part, section: {section} }}]\n")
+            self.assertIn(message, self.run_program("check", "e.yaml", code=3)[1], section)
+
+    def test_sections_of_solids_in_numbers(self):
+        self.write("n.yaml", f"""lekalo: 1
+geometry: {PART}  ball: {{ type: implicit, formula: x^2 + y^2 + z^2 - 1, ball: {{ radius: 1.5 }} }}
+  pipe: {{ type: cylinder_surface, radius: 1, height: 3 }}
+""")
+        found = self.json_of("measure", "n.yaml", "part", "--section", "0,0,2,0,0,1")
+        self.assert_near(found["length"], 16 + 2 * math.pi, 1e-9)
+        found = self.json_of("measure", "n.yaml", "part", "--section", "0,2,0,0,1,0")
+        self.assert_near(found["length"], 4 * 1 + 4 * 4, 1e-9)
+        found = self.json_of("measure", "n.yaml", "ball", "--section", "0,0,0.6,0,0,1")
+        self.assert_near(found["length"], 2 * math.pi * 0.8, 1e-8)
+        found = self.json_of("measure", "n.yaml", "ball", "--silhouette", "0,0,-1")
+        self.assert_near(found["length"], 2 * math.pi, 1e-8)
+
+    def test_table_of_a_section_in_space_and_in_its_plane(self):
+        self.write("t.yaml", "lekalo: 1\ngeometry: { pipe: { type: cylinder_surface, radius: 1, height: 3 } }\n")
+        (branch,) = self.json_of("measure", "t.yaml", "pipe", "--section", "0,0,1,0,0,2", "--samples", 9)["branches"]
+        for row in branch["samples"]:
+            self.assert_near(row["point"][2], 1, 1e-12)
+            self.assert_near(math.hypot(*row["in_plane"]), 1, 1e-12)
+        self.assertIn("in the plane", self.run_program("measure", "t.yaml", "pipe", "--section", "0,0,1,0,0,2")[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
