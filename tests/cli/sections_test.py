@@ -22,7 +22,7 @@ class Sections(ProgramTest):
 
     def hatching(self, svg):
         """The hatching lines of the cut faces, as (x, y, x, y)."""
-        group = re.search(r'<g class="section_hatch".*?</g>', svg, re.S)
+        group = re.search(r'class="section_hatch".*?</g>', svg, re.S)
         self.assertIsNotNone(group, svg[:2000])
         numbers = r"([-\d.]+)[ ,]([-\d.]+)"
         return [tuple(map(float, found)) for found in re.findall(rf'd="M ?{numbers} ?L ?{numbers}', group.group(0))]
