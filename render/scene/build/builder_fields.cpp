@@ -158,7 +158,9 @@ bool Builder::read_fields_into(Fields& fields, const std::vector<Field>& declare
       const bool read = read_field(field, *value, counters, fields);
       if (read && field.type.kind == Kind::references && fields.holds<std::vector<std::any>>(field.name))  // no word
         fields.set(field.name + ".names", names_of_references(*value, counters, field.type.categories));
-      if (read && field.type.kind == Kind::reference && value->is_scalar())
+      // Operands give their names to the faces of what is made of them.
+      if (read && field.type.kind == Kind::reference && value->is_scalar() && !field.type.categories.empty() &&
+          field.type.categories.front() == Category::body && !fields.holds<std::string>(field.name))
         fields.set(field.name + ".names", names_of_references(*value, counters, field.type.categories));
       good = read && good;
     } else if (!field.default_text.empty()) {
