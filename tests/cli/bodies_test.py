@@ -35,6 +35,18 @@ BODIES = {
     "wall": "{ type: extrusion_body, of: { type: line_arc_curve, closed: false, nodes: [{ at: [0, 0] }, { at: [2, 0], fillet: 0.4 }, "
             "{ at: [2, 1] }, { at: [3, 1] }] }, thickness: 0.1, along: z }",
     "hollow": "{ type: hollow_body, of: { type: box, size: [3, 3, 3] }, voids: { type: ball, radius: 1, center: [1.5, 1.5, 1.5] } }",
+    "set_off": "{ type: offset_body, of: { type: pyramid, points: [[0, 0], [3, 0], [3, 2], [0, 2]], height: 3 }, distance: 0.2 }",
+    "round": "{ type: offset_body, of: { type: pyramid, points: [[0, 0], [3, 0], [3, 2], [0, 2]], height: 3 }, distance: 0.2, joints: round }",
+    "round_drum": "{ type: offset_body, of: { type: cylinder_body, center: [1, 1, 0], radius: 1, height: 2 }, distance: 0.2, joints: round }",
+    "no_groove": "{ type: offset_body, of: { type: prism, points: [[0, 0], [3, 0], [3, 2], [2, 2], [2, 1], [1.6, 1], [1.6, 2], [0, 2]], "
+                 "height: 2 }, distance: 0.25 }",
+    "tub": f"{{ type: shell_body, of: {{ type: extrusion_body, of: {ROUND}, along: [0, 0, 2] }}, thickness: 0.05, open: [end] }}",
+    "two_open": "{ type: shell_body, of: { type: box, size: [3, 2, 2] }, thickness: 0.2, open: [z_max, y_min] }",
+    "tilted": f"{{ type: moved_faces, of: {{ type: extrusion_body, of: [{ROUND}, {HOLE}], along: [0, 0, 1] }}, faces: end, by: {{ rotate: 10, axis: x }} }}",
+    "leant": f"{{ type: drafted_faces, of: {{ type: extrusion_body, of: [{{ type: rectangle, size: [2, 1] }}, {HOLE}], along: [0, 0, 1] }}, "
+             "faces: [side.0, side.2, side.4], angle: 8 }",
+    "plain": f"{{ type: deleted_faces, of: {{ type: extrusion_body, of: [{ROUND}, {HOLE}], along: [0, 0, 1] }}, faces: [side.1, side.8] }}",
+    "dented": "{ type: deformed_face, of: { type: box, size: [3, 3, 2] }, face: z_max, count: 5, moves: { at: [2, 2], height: -1 } }",
 }
 SCENE = "lekalo: 1\ngeometry:\n" + "".join(f"  {name}: {body}\n" for name, body in BODIES.items())
 
