@@ -10,6 +10,7 @@
 #include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/curves/operations/surface_curve.h"
 #include "geometry/surfaces/analytic/plane.h"
+#include "geometry/surfaces/derived/extended.h"
 
 namespace lekalo::geometry {
 
@@ -30,6 +31,26 @@ bool is_line(const Curve& image) {
   return true;
 }
 
+// A surface that goes on beyond its borders as extended_to() continues it, so that what is found there stays on it.
+SurfacePtr continued(const SurfacePtr& surface, double size) {
+  if (!surface->bounded()) return surface;
+  const Rectangle d = surface->domain();
+  const Periods periods = surface->periods();
+  const auto inflated = [](const Interval& own, double period) {
+    return period > 0 ? own : Interval(own.lo - 0.5 * own.width(), own.hi + 0.5 * own.width());
+  };
+  try {
+    const SurfacePtr longer = extended_to(surface, {inflated(d.u, periods.u), inflated(d.v, periods.v)});
+    const Rectangle wide = longer->domain();
+    for (const Vec2& at : {Vec2(wide.u.lo, d.v.middle()), Vec2(wide.u.hi, d.v.middle()), Vec2(d.u.middle(), wide.v.lo),
+                           Vec2(d.u.middle(), wide.v.hi)})
+      if (!(glm::length(longer->point(at.x, at.y) - surface->point(at.x, at.y)) <= 1e-12 * size)) return longer;
+  } catch (const std::invalid_argument&) {
+    // It ends there.
+  }
+  return surface;
+}
+
 }  // namespace
 
 NewFaces::NewFaces(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field)
@@ -40,7 +61,8 @@ NewFaces::NewFaces(const Body& body, const std::vector<SurfacePtr>& surfaces, co
     removed_.push_back(surface == nullptr);
     changed_.push_back(surface != body.faces[f].surface);
     planes_.push_back(surface ? plane_of(surface) : std::nullopt);
-    supports_.push_back(surface && planes_[f] ? std::make_shared<Plane>(*planes_[f]) : surface);
+    const SurfacePtr plane = planes_[f] ? std::make_shared<Plane>(*planes_[f]) : nullptr;
+    supports_.push_back(plane || !surface ? plane : continued(surface, size_));
     plane_ = plane_ && (!surface || planes_[f]);
   }
   for (size_t e = 0; e < old_.edges.size(); ++e) carriers_.push_back(found_carrier(static_cast<int>(e)));
