@@ -24,22 +24,13 @@ namespace {
 
 constexpr double kTogether = 1e-9;  // of the size: how far edges may be from their faces
 
-// Looked at in some places: enclosures of polynomials are wide.
-Box3 sampled_box(const Curve& image) {
-  constexpr int kSamples = 32;
-  Box3 box;
-  for (const CurvePiece& piece : image.pieces())
-    for (int k = 0; k <= kSamples; ++k) box.include(image.point(piece.domain.lo + piece.domain.width() * k / kSamples));
-  return box;
-}
-
 class Blending {
  public:
   Blending(const Body& body, const std::vector<BlendRequest>& requests, Corners corners, const Beyonds& beyonds)
       : body_(body),
         corners_(corners),
         beyonds_(beyonds),
-        surgery_{body, rules_, BodyDraft(body), bounds(body).diameter(), {}, {}, {}, {}, {}} {
+        surgery_{body, rules_, BodyDraft(body), bounds(body).diameter(), {}, {}, {}, {}, {}, {}} {
     const std::vector<BlendEdge> edges = blend_edges(body, requests, rules_);
     for (size_t i = 0; i < edges.size(); ++i) surgery_.blend_of[edges[i].edge] = i;
     for (const auto& [edge, beyond] : beyonds_) {
@@ -192,7 +183,8 @@ class Blending {
       loop = std::move(uses);
     }
     if (changed) face.trimmed = true;
-    if (opened) rechain(face);
+    if (opened && !chain_loops(surgery_.draft, face))
+      throw BlendError(surgery_.blends.front().edge.edge, "its border touches others of the face", false);
   }
 
   // What a use of an old edge has become; `opened`: the loop has a gap there, or another beginning.
@@ -235,49 +227,6 @@ class Blending {
     }
     if (!forward) std::reverse(uses.begin(), uses.end());
     return uses;
-  }
-
-  // Loops anew from uses that follow one another; the one that encloses most is the outer one.
-  void rechain(DraftFace& face) const {
-    std::map<int, Body::Use> leaving;
-    for (const auto& loop : face.loops)
-      for (const Body::Use& use : loop) {
-        const Edge& edge = surgery_.draft.edges[use.edge];
-        if (!leaving.emplace(use.forward ? edge.start : edge.end, use).second)
-          throw BlendError(surgery_.blends.front().edge.edge, "its border touches others of the face", false);
-      }
-    std::vector<std::pair<double, std::vector<Body::Use>>> loops;
-    while (!leaving.empty()) {
-      std::vector<Body::Use> loop;
-      double area = 0;
-      int at = leaving.begin()->first;
-      for (auto next = leaving.find(at); next != leaving.end(); next = leaving.find(at)) {
-        const Body::Use use = next->second;
-        leaving.erase(next);
-        const Edge& edge = surgery_.draft.edges[use.edge];
-        at = use.forward ? edge.end : edge.start;
-        area += (use.forward ? 1 : -1) * area_beside(*use.image);
-        loop.push_back(use);
-      }
-      loops.emplace_back(std::abs(area), std::move(loop));
-    }
-    std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    face.loops.clear();
-    for (auto& [area, loop] : loops) face.loops.push_back(std::move(loop));
-  }
-
-  // Twice the area between a curve and the origin.
-  static double area_beside(const Curve& image) {
-    constexpr int kSteps = 32;
-    const Interval t = image.domain();
-    double area = 0;
-    Vec3 last = image.point(t.lo);
-    for (int k = 1; k <= kSteps; ++k) {
-      const Vec3 here = image.point(t.lo + t.width() * k / kSteps);
-      area += last.x * here.y - last.y * here.x;
-      last = here;
-    }
-    return area;
   }
 
   // A piece of a border: its edge as the band uses it in the edge's direction, and the face on its other side.
@@ -388,35 +337,12 @@ class Blending {
     return loop;
   }
 
-  // Loops that reach beyond the surfaces' domains; lines near to an edge still meet a plane.
   void widen_faces() {
-    for (DraftFace& face : surgery_.draft.faces) {
-      if (!face.trimmed) continue;
-      Box3 box;
-      for (const auto& loop : face.loops)
-        for (const Body::Use& use : loop) box.include(sampled_box(*use.image));
-      Rectangle domain = face.surface->domain();
-      const Periods periods = face.surface->periods();
-      const double slack = 1e-9 * box.diameter(),
-                   reach = dynamic_cast<const Plane*>(face.surface.get()) ? 0.05 * box.diameter() : 0;
-      const auto widened = [&](Interval& range, double period, double lo, double hi) {
-        if (period > 0 && range.width() >= period * (1 - 1e-12)) return false;
-        const bool leaves = lo - reach < range.lo - slack || hi + reach > range.hi + slack;
-        if (leaves) range = {std::min(range.lo, lo - reach), std::max(range.hi, hi + reach)};
-        return leaves;
-      };
-      const bool u = widened(domain.u, periods.u, box.lo.x, box.hi.x),
-                 v = widened(domain.v, periods.v, box.lo.y, box.hi.y);
-      if (!u && !v) continue;
-      const bool was_reversed = face.surface->reversed();
-      const SurfacePtr more = continued_by_law(face.surface, domain);
-      if (!more)
+    for (DraftFace& face : surgery_.draft.faces)
+      if (face.trimmed && !reaches_loops(face))
         throw BlendError(surgery_.blends.front().edge.edge,
                          fmt::format("the surface of {} does not go on as far as the blend needs it",
                                      face.origin.text().empty() ? "a face" : face.origin.text()));
-      std::const_pointer_cast<Surface>(more)->set_reversed(was_reversed);
-      face.surface = more;
-    }
   }
 
   void check(const Body& result) const {

@@ -31,4 +31,15 @@ struct BodyDraft {
   Body body(std::vector<int>* edge_numbers = nullptr) const;
 };
 
+// A box about a curve, from some places: enclosures of polynomials are wide.
+Box3 sampled_box(const Curve& curve);
+
+// Makes loops anew of a face's uses that follow one another; the one that encloses most is the outer one. False where
+// two uses leave one vertex.
+bool chain_loops(const BodyDraft& draft, DraftFace& face);
+
+// Lets a face's surface go on by its own law to its loops, a plane a little farther, so that lines near to an edge
+// still meet it. False where there is no such law.
+bool reaches_loops(DraftFace& face);
+
 }  // namespace lekalo::geometry
