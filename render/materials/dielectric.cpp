@@ -50,7 +50,8 @@ class DielectricMaterial final : public Material {
 
  private:
   double index(double nanometres) const {
-    return dielectric_.glass.empty() ? dielectric_.index : dielectric_index(dielectric_.glass, nanometres);
+    if (!dielectric_.glass.empty()) return dielectric_index(dielectric_.glass, nanometres);
+    return dielectric_.abbe > 0 ? cauchy_index(dielectric_.index, dielectric_.abbe, nanometres) : dielectric_.index;
   }
 
   Dielectric dielectric_;
@@ -72,7 +73,9 @@ TypeDeclaration dielectric_type() {
               "show as Phong "
               "highlights with n = (1/r^4 - 1)/2 within 1 to 1000 and k_s = F0 (n + 2)/2, at most 1, r the roughness.");
   type.optional("glass", choice(dielectric_names()), "substance; gives the index for every wavelength")
-      .optional("index", number().positive(), "refractive index, the same for all wavelengths; 1.5 without `glass`")
+      .optional("index", number().positive(), "refractive index for yellow light; 1.5 without `glass`")
+      .optional("abbe", number().at_least(5),
+                "Abbe number of `index`: how little colours part, 60 of crown glass, 25 of flint; none without it")
       .field("absorption", color().non_negative(), "mu per unit of length: light falls by e^(-mu l)", "0")
       .field(
           "scattering", color().non_negative(),
@@ -90,9 +93,12 @@ TypeDeclaration dielectric_type() {
   return type.built_by([](const Fields& f) {
     if (f.has("glass") && f.has("index"))
       throw FieldError("index", "both 'glass' and 'index' are given", "the glass has its own index: leave one out");
+    if (f.has("glass") && f.has("abbe"))
+      throw FieldError("abbe", "both 'glass' and 'abbe' are given", "the glass has its own dispersion: leave one out");
     Dielectric dielectric;
     if (f.has("glass")) dielectric.glass = f.text("glass");
     if (f.has("index")) dielectric.index = f.number("index");
+    if (f.has("abbe")) dielectric.abbe = f.number("abbe");
     dielectric.absorption = f.vec3("absorption");
     dielectric.roughness = roughness(f, "roughness");
     dielectric.thin = f.boolean("thin");

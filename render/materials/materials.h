@@ -59,6 +59,7 @@ struct Conductor {
 struct Dielectric {
   std::string glass;  // one of dielectric_names(); empty: `index`
   double index = 1.5;
+  double abbe = 0;          // Abbe number, by Cauchy's formula; 0: `index` for all wavelengths
   Vec3 absorption{0};       // 1/length
   Roughness roughness = 0;  // in [0, 1]
   int priority = 0;
@@ -105,7 +106,11 @@ struct Principled {
   double specular_ior = 1.5;
   Roughness transmission_weight = 0;
   Vec3 transmission_color{1};
-  double transmission_depth = 0;  // where transmission_color is reached; 0: at the surface
+  double transmission_depth = 0;               // where transmission_color is reached; 0: at the surface
+  Vec3 transmission_scatter{0};                // scattering coefficient times that depth
+  double transmission_scatter_anisotropy = 0;  // in (-1, 1)
+  double transmission_dispersion_scale = 0;    // in [0, 1]; 0: specular_ior for all wavelengths
+  double transmission_dispersion_abbe_number = 20;
   Roughness coat_weight = 0;
   TexturedColor coat_color = 1.0;
   double coat_roughness = 0;

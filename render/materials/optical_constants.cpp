@@ -149,4 +149,10 @@ double dielectric_index(std::string_view name, double nanometres) {
   }
 }
 
+double cauchy_index(double index_d, double abbe, double nanometres) {
+  constexpr double kLineF = 486.1327, kLineC = 656.2725;  // hydrogen, blue and red
+  const double b = (index_d - 1) / (abbe * (1 / (kLineF * kLineF) - 1 / (kLineC * kLineC)));
+  return index_d + b * (1 / (nanometres * nanometres) - 1 / (static_cast<double>(kLineD) * kLineD));
+}
+
 }  // namespace lekalo::render

@@ -32,4 +32,7 @@ const std::vector<std::string>& dielectric_names();
 // formula's range of validity are moved to its end. Throws std::invalid_argument for an unknown name.
 double dielectric_index(std::string_view name, double nanometres);
 
+// Cauchy's formula n = a + b / l^2 for the index n_d of line d and the Abbe number (n_d - 1) / (n_F - n_C) > 0.
+double cauchy_index(double index_d, double abbe, double nanometres);
+
 }  // namespace lekalo::render

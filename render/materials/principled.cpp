@@ -6,6 +6,7 @@
 #include "render/lobes/fresnel.h"
 #include "render/lobes/scattering.h"
 #include "render/materials/materials.h"
+#include "render/materials/optical_constants.h"
 
 namespace lekalo::render {
 
@@ -30,8 +31,11 @@ class PrincipledMaterial final : public Material {
         coat_(coat_albedo(p.coat_roughness, p.coat_ior)),
         fuzz_(sheen_albedo(p.fuzz_roughness)) {
     for (int i = 0; i < 3; ++i)
-      if (p.transmission_depth > 0)
-        absorption_[i] = -std::log(std::max(p.transmission_color[i], 1e-4)) / p.transmission_depth;
+      if (p.transmission_depth > 0) {
+        const double extinction = -std::log(std::max(p.transmission_color[i], 1e-4)) / p.transmission_depth;
+        scattering_[i] = p.transmission_scatter[i] / p.transmission_depth;
+        absorption_[i] = std::max(0.0, extinction - scattering_[i]);
+      }
   }
 
   Scattering scattering(const SurfacePoint& point, const Wavelengths&) const override {
@@ -58,9 +62,10 @@ class PrincipledMaterial final : public Material {
     return s;
   }
 
-  std::optional<Medium> interior(const Wavelengths&) const override {
+  std::optional<Medium> interior(const Wavelengths& wavelengths) const override {
     if (!transmits()) return std::nullopt;
-    return Medium{static_cast<float>(p_.specular_ior), rgb(absorption_), 0};
+    return Medium{static_cast<float>(index(wavelengths.nanometres[0])), rgb(absorption_), 0, rgb(scattering_),
+                  static_cast<float>(p_.transmission_scatter_anisotropy)};
   }
   bool transmits() const override {
     const Roughness &passing = p_.transmission_weight, &metalness = p_.base_metalness;
@@ -79,6 +84,11 @@ class PrincipledMaterial final : public Material {
   std::any made_from() const override { return p_; }
 
  private:
+  double index(double nanometres) const {
+    const double scale = p_.transmission_dispersion_scale;
+    if (scale == 0) return p_.specular_ior;
+    return cauchy_index(p_.specular_ior, p_.transmission_dispersion_abbe_number / scale, nanometres);
+  }
   static Spectrum part(double weight) { return Spectrum(static_cast<float>(weight)); }
   MetalLobe metal(const SurfacePoint& point, const Spectrum& color) const {
     MetalLobe lobe;
@@ -111,7 +121,7 @@ class PrincipledMaterial final : public Material {
   double index_;  // of the skin over the matt base
   TabledRoughness metal_, skin_;
   LobeAlbedoPtr coat_, fuzz_;
-  Vec3 absorption_{0};
+  Vec3 absorption_{0}, scattering_{0};
 };
 
 }  // namespace
@@ -134,7 +144,12 @@ TypeDeclaration principled_type() {
       .field("specular_ior", number().at_least(1), "refractive index of skin and glass", "1.5");
   declare_roughness(type, "transmission_weight", "share of what is no metal that is clear", "0");
   type.field("transmission_color", color().between(0, 1), "of light that passes", "white")
-      .field("transmission_depth", number().non_negative(), "way after which it has that colour; 0: at once", "0");
+      .field("transmission_depth", number().non_negative(), "way after which it has that colour; 0: at once", "0")
+      .field("transmission_scatter", color().non_negative(),
+             "how often light is scattered over that way; the classic model leaves it out", "0")
+      .field("transmission_scatter_anisotropy", number().above(-1).below(1), "mean cosine of the angles", "0")
+      .field("transmission_dispersion_scale", number().between(0, 1), "0: colours do not part", "0")
+      .field("transmission_dispersion_abbe_number", number().at_least(9), "divided by that scale it is Abbe's", "20");
   declare_roughness(type, "coat_weight", "share of the surface that is under a coat", "0");
   type.field("coat_color", textured_share(), "of light that comes back through the coat", "1")
       .field("coat_roughness", number().between(0, 1), "of the coat", "0")
@@ -159,6 +174,13 @@ TypeDeclaration principled_type() {
     p.transmission_weight = roughness(f, "transmission_weight");
     p.transmission_color = f.vec3("transmission_color");
     p.transmission_depth = f.number("transmission_depth");
+    p.transmission_scatter = f.vec3("transmission_scatter");
+    p.transmission_scatter_anisotropy = f.number("transmission_scatter_anisotropy");
+    p.transmission_dispersion_scale = f.number("transmission_dispersion_scale");
+    p.transmission_dispersion_abbe_number = f.number("transmission_dispersion_abbe_number");
+    if (p.transmission_depth == 0 && p.transmission_scatter != Vec3(0))
+      throw FieldError("transmission_scatter", "without a depth there is no substance that could scatter",
+                       "give transmission_depth, the way over which the light is scattered so often");
     p.coat_weight = roughness(f, "coat_weight");
     p.coat_color = color_texture(f, "coat_color");
     p.coat_roughness = f.number("coat_roughness");

@@ -136,6 +136,11 @@ class OpticsInput(ProgramTest):
                 self.assertIn(words, self.complaint(material=f"{{ type: conductor, metal: Fe, film: {film} }}"))
         self.assertIn("metal below it", self.complaint(material="{ type: conductor, color: 0.8, film: { thickness: 300 } }"))
 
+    def test_dispersion_and_depth(self):
+        self.assertIn("its own dispersion", self.complaint(material="{ type: dielectric, glass: N-BK7, abbe: 30 }"))
+        self.complaint(material="{ type: dielectric, abbe: 0 }")
+        self.assertIn("without a depth", self.complaint(material="{ type: principled, transmission_weight: 1, transmission_scatter: 1 }"))
+
     def test_holes_in_clear_bodies(self):
         self.assertIn("clear body has no opacity", self.complaint(material="{ type: dielectric, opacity: 0.5 }"))
 

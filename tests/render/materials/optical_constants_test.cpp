@@ -41,6 +41,15 @@ TEST(OpticalConstants, MetalsFollowTheirTables) {
   EXPECT_THROW(metal_index("Unobtainium", {}), std::invalid_argument);
 }
 
+// N-BK7 by Schott's data sheet: n_d = 1.51680, Abbe number 64.17; n_F = 1.52238, n_C = 1.51432.
+TEST(OpticalConstants, CauchyHasTheAbbeNumber) {
+  const double f = cauchy_index(1.5168, 64.17, 486.1327), c = cauchy_index(1.5168, 64.17, 656.2725);
+  EXPECT_NEAR(0.5168 / (f - c), 64.17, 1e-9);
+  EXPECT_NEAR(f, 1.52238, 2e-4);
+  EXPECT_NEAR(c, 1.51432, 2e-4);
+  EXPECT_EQ(cauchy_index(1.5168, 64.17, kLineD), 1.5168);
+}
+
 TEST(Fresnel, DielectricAtPublishedAngles) {
   // 1 to 1.5, unpolarised, at 0, 45, 60, 80 degrees.
   const std::pair<double, double> table[] = {{0, 0.04}, {45, 0.0502399}, {60, 0.0891867}, {80, 0.3877043}};
