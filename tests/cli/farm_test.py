@@ -108,6 +108,15 @@ class Farm(ProgramTest):
         for kind in "png", "exr":
             self.assertEqual(self.bytes_of(f"ring.{kind}"), self.bytes_of(f"whole.{kind}"))
 
+    def test_begun_by_another_version(self):
+        """What cannot be gone on with is made anew."""
+        self.write("ring.png.partial", "lekalo partial 1\n...")
+        self.write("ring.png", "half a picture")
+        self.run_program("render", "ring.yaml", "-o", "ring.png", "--skip-existing", "--quiet")
+        self.single()
+        self.assertEqual(self.bytes_of("ring.png"), self.bytes_of("whole.png"))
+        self.assertFalse((self.folder / "ring.png.partial").exists())
+
     def test_unfinished_part(self):
         self.write("ring.yaml", SCENE.replace("samples: 4", "samples: 20000"))
         run = subprocess.Popen([LEKALO, "render", "ring.yaml", "-o", "ring.png", "--tile", "1/1"], cwd=self.folder, stderr=subprocess.PIPE)

@@ -211,10 +211,13 @@ std::string of_one_frame(const render::ParameterSetting& setting, const std::vec
   return change + " in place of --frames and -o,";
 }
 
-// Whether the work on that picture of this very scene was begun, and kept.
+// Whether the work on that picture of this very scene was begun, and kept by this version of the program.
 bool is_begun(const std::string& partial, uint64_t identity) {
-  std::error_code ignored;
-  return std::filesystem::exists(partial, ignored) && render::read_partial_header(partial).identity == identity;
+  try {
+    return render::read_partial_header(partial).identity == identity;
+  } catch (const render::ImageError&) {
+    return false;
+  }
 }
 
 // For --skip-existing. A picture that has a partial file beside it is not done.
