@@ -1,7 +1,6 @@
 // The type `named_curve`: a preset's formulas with its parameters put in.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "geometry/curves/analytic/formula_curve.h"
@@ -37,18 +36,6 @@ std::string list_of_presets() {
   return text;
 }
 
-Constants constants_of(const Fields& f, const Preset& preset) {
-  for (const std::string& name : parameter_names(presets()))
-    if (f.has(name) && std::none_of(preset.parameters.begin(), preset.parameters.end(),
-                                    [&](const PresetParameter& p) { return p.name == name; }))
-      throw FieldError(name, fmt::format("'{}' has no parameter '{}'", preset.name, name),
-                       fmt::format("it has {}", parameters_of(preset)));
-  Constants result;
-  for (const PresetParameter& p : preset.parameters)
-    result.push_back({std::string(p.name), f.has(p.name) ? f.number(p.name) : p.value});
-  return result;
-}
-
 // 2 pi q with b/a = p/q.
 double period(double a, double b) {
   for (int q = 1; q <= kMostTurns; ++q)
@@ -60,7 +47,7 @@ const Preset& chosen(const std::string& name, const Fields& f, Constants& consta
   const Preset* last = nullptr;
   for (const Preset& preset : presets()) {
     if (preset.name != name) continue;
-    constants = constants_of(f, preset);
+    constants = preset_constants(f, &preset, presets());
     last = &preset;
     if (preset.condition.empty() || preset_value(preset.condition, constants) != 0) return preset;
   }

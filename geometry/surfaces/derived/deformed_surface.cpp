@@ -12,6 +12,7 @@
 
 #include "geometry/composition.h"
 #include "geometry/curves/splines/bspline_basis.h"
+#include "geometry/curves/splines/greville.h"
 #include "geometry/describe.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/surfaces/derived/deformed.h"
@@ -56,12 +57,6 @@ SplineAxis axis_over(const Interval& domain, double period, int degree, const Kn
     throw FieldError(error.field == "points" ? "count" : error.field,
                      fmt::format("in direction {}: {}", direction, error.what()), error.hint);
   }
-}
-
-double greville(const SplineAxis& axis, int i) {
-  double sum = 0;
-  for (int k = 1; k <= axis.degree(); ++k) sum += axis.knots()[i + k];
-  return sum / axis.degree();
 }
 
 // The control values of the field, i outer.
@@ -122,7 +117,8 @@ void to_space(const Surface& of, Controls& controls) {
     for (int j = 0; j < controls.v.distinct(); ++j) {
       Vec3& vector = controls.at(i, j);
       if (vector == Vec3(0)) continue;
-      const double u = greville(controls.u, i), v = greville(controls.v, j);
+      const double u = greville(controls.u.knots(), controls.u.degree(), i),
+                   v = greville(controls.v.knots(), controls.v.degree(), j);
       const SurfaceJet jet = of.evaluate(u, v, 1);
       vector = vector.x * jet.du() + vector.y * jet.dv() + vector.z * of.normal(u, v);
     }

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <map>
 
+#include "geometry/curves/splines/greville.h"
 #include "geometry/surfaces/splines/t_refinement.h"
 #include "geometry/transformed.h"
 
@@ -251,15 +252,10 @@ NurbsSurface graph_of_sum(const TSpline& of, const std::vector<double>& which, c
     values[static_cast<size_t>(i)].z = 1;
   }
   NurbsSurfaceForm form = sum_of(functions, values, part.value_or(domain));
-  const auto greville = [&](const std::vector<double>& knots, int i) {
-    double sum = 0;
-    for (int k = 1; k <= form.degree_u; ++k) sum += knots[i + k] / form.degree_u;
-    return sum;
-  };
   for (int i = 0; i < form.count_u(); ++i)
     for (int j = 0; j < form.count_v(); ++j) {
       Vec4& p = form.points[static_cast<size_t>(i) * form.count_v() + j];
-      p = Vec4(greville(form.knots_u, i), greville(form.knots_v, j), p.z, 1);
+      p = Vec4(greville(form.knots_u, form.degree_u, i), greville(form.knots_v, form.degree_v, j), p.z, 1);
     }
   return NurbsSurface(form);
 }
