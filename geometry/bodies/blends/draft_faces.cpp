@@ -5,7 +5,7 @@
 
 #include "geometry/bodies/blends/body_draft.h"
 #include "geometry/surfaces/analytic/plane.h"
-#include "geometry/surfaces/derived/extended_surface.h"
+#include "geometry/surfaces/derived/extended.h"
 
 namespace lekalo::geometry {
 

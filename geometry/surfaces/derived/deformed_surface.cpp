@@ -138,7 +138,8 @@ SurfacePtr deformed_plane(const Plane& plane, const Controls& controls) {
   std::vector<Vec3> points;
   for (int i = 0; i < controls.u.distinct(); ++i)
     for (int j = 0; j < controls.v.distinct(); ++j) {
-      const double u = greville(controls.u, i), v = greville(controls.v, j);
+      const double u = greville(controls.u.knots(), controls.u.degree(), i),
+                   v = greville(controls.v.knots(), controls.v.degree(), j);
       const Vec3& by = controls.values[static_cast<size_t>(i) * controls.v.distinct() + j];
       points.push_back(plane.point(u, v) + (controls.are_vectors ? by : by.x * plane.normal(u, v)));
     }
