@@ -35,6 +35,7 @@ BodyPtr body_of(const ShapePtr& shape, const Affine& map, const Box3& within) {
 // The operand's name goes before the names that its faces have.
 void name_faces(Body& body, const std::string& name) {
   const auto prefix = [&](Origin& origin) {
+    if (origin.feature == name || origin.feature.starts_with(name + ".")) return;  // it has it already
     origin.feature = origin.feature.empty() ? name : name + "." + origin.feature;
   };
   for (Face& face : body.faces) prefix(face.origin);

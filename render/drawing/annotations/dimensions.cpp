@@ -256,7 +256,19 @@ void add_linear_dimension(AnnotationWork& work) {
 }
 
 void add_round_dimension(AnnotationWork& work, bool diameter) {
-  const Circle circle = circle_of(work.fields());
+  const std::vector<Circle> circles = circles_of(work.fields().references("of"));
+  // Of several the one that fills most of the picture.
+  const auto seen_area = [&](const Circle& circle) {
+    const Frame& frame = circle.frame();
+    const Vec2 center = work.view().place(frame.origin);
+    const Vec2 x = work.view().place(frame.origin + circle.radius() * frame.x) - center,
+               y = work.view().place(frame.origin + circle.radius() * frame.y) - center;
+    const double area = std::abs(x.x * y.y - x.y * y.x);
+    return std::isfinite(area) ? area : 0;
+  };
+  const Circle circle = *std::max_element(circles.begin(), circles.end(), [&](const Circle& a, const Circle& b) {
+    return seen_area(a) < seen_area(b) * (1 - 1e-9);
+  });
   const Frame& frame = circle.frame();
   const double radius = circle.radius();
   const Vec3 corner = radius * (frame.x + frame.y), other = radius * (frame.x - frame.y);

@@ -19,7 +19,8 @@ std::vector<SheetItem> line_with_heads(const Vec2& from, const Vec2& to, bool st
   const Vec2 way = (to - from) / length;
   const double size = std::min(arrow_size, 0.5 * length);
   std::vector<SheetItem> items;
-  items.push_back(drawn(
+  items.reserve(3);
+  items.emplace_back(drawn(
       straight_path({from + (start ? shortened_by(size) : 0.0) * way, to - (end ? shortened_by(size) : 0.0) * way}),
       pen));
   if (start) items.push_back(arrow_head(from, -way, size, pen));
@@ -54,16 +55,11 @@ std::string side_towards(const Vec2& way) {
   return kSides[(static_cast<int>(std::lround(eighth)) + 8) % 8];
 }
 
-Circle circle_of(const Fields& f) {
-  CurvePtr curve;
-  if (f.holds<CurvePtr>("of")) {
-    curve = f.curve("of");
-  } else {
-    SurfacePtr surface;
-    if (f.holds<SurfacePtr>("of")) surface = f.surface("of");
-    if (f.holds<BodyPtr>("of"))
-      for (const Face& face : f.body("of")->faces)
-        if (!surface && is_round(*face.surface)) surface = face.surface;
+namespace {
+
+// The circle or arc that a curve is, or that a surface has across its axis.
+Circle circle_of(CurvePtr curve, const SurfacePtr& surface) {
+  if (!curve) {
     const Rectangle domain = surface->domain();
     const auto middle = [](const Interval& range) { return range.width() < kInfinity ? range.middle() : 0.0; };
     for (const IsoDirection held : {IsoDirection::v, IsoDirection::u}) {
@@ -77,6 +73,25 @@ Circle circle_of(const Fields& f) {
   constexpr double kClosed = 1e-6;  // of the radius
   if (glm::length(at(1) - at(0)) > kClosed * part.radius()) return arc_through(at(0), at(0.5), at(1));
   return Circle(part.frame(), part.radius(), {0, kTwoPi});
+}
+
+}  // namespace
+
+std::vector<Circle> circles_of(const std::vector<std::any>& things) {
+  std::vector<Circle> circles;
+  for (const std::any& one : things) {
+    if (const auto* curve = std::any_cast<CurvePtr>(&one); curve && is_round(**curve))
+      circles.push_back(circle_of(*curve, nullptr));
+    if (const auto* surface = std::any_cast<SurfacePtr>(&one); surface && is_round(**surface))
+      circles.push_back(circle_of(nullptr, *surface));
+    if (const auto* body = std::any_cast<BodyPtr>(&one))
+      for (const Face& face : (*body)->faces)
+        if (is_round(*face.surface)) {
+          circles.push_back(circle_of(nullptr, face.surface));
+          break;
+        }
+  }
+  return circles;
 }
 
 std::string dimension_number(double value, int decimals) {

@@ -1,6 +1,9 @@
 // What annotations draw on the page: lines with heads, braces; the circles and numbers of dimensions.
 #pragma once
 
+#include <any>
+#include <vector>
+
 #include <string>
 #include <vector>
 
@@ -25,7 +28,7 @@ Brace brace_along(Vec2 from, Vec2 to, double offset, double depth);
 std::string side_towards(const Vec2& way);
 
 // The circle of the round curve, surface or body `of` of a dimension.
-geometry::Circle circle_of(const geometry::Fields& f);
+std::vector<geometry::Circle> circles_of(const std::vector<std::any>& things);
 
 // The number of a dimension: at most so many decimals, zeros at its end left out.
 std::string dimension_number(double value, int decimals);

@@ -170,15 +170,18 @@ TypeDeclaration linear_dimension() {
 
 TypeDeclaration round_dimension(const char* name, const char* description) {
   TypeDeclaration type = dimension(name, description);
-  type.field("of", reference({Category::curve, Category::surface, Category::body}),
-             "a circle, an arc, or a surface or body of revolution")
+  type.field("of", references({Category::curve, Category::surface, Category::body}),
+             "a circle, an arc, or a surface or body of revolution; of several the one that is seen best")
       .field("leader", angle(), "direction of the dimension line on the page, from the right upwards", "45");
   return finish(type, [](const Fields& f) {
     one_text(f);
-    bool round =
-        f.holds<CurvePtr>("of") ? is_round(*f.curve("of")) : f.holds<SurfacePtr>("of") && is_round(*f.surface("of"));
-    if (f.holds<BodyPtr>("of"))
-      for (const Face& face : f.body("of")->faces) round = round || is_round(*face.surface);
+    bool round = false;
+    for (const std::any& one : f.references("of")) {
+      if (const auto* curve = std::any_cast<CurvePtr>(&one)) round = round || is_round(**curve);
+      if (const auto* surface = std::any_cast<SurfacePtr>(&one)) round = round || is_round(**surface);
+      if (const auto* body = std::any_cast<BodyPtr>(&one))
+        for (const Face& face : (*body)->faces) round = round || is_round(*face.surface);
+    }
     if (!round)
       throw FieldError("of", "this is not round: it has no radius",
                        "name a circle, an arc, or a sphere, cylinder, torus or other surface of revolution; a distance "
