@@ -26,7 +26,6 @@ struct ImprintedFace {
   std::vector<DirectedCurve> curves;
   // Faces of the other body on the same surface, where these have points in common.
   std::vector<int> coincident;
-  bool touched = false;  // its boundary or its inside has something of the other body
 };
 
 struct Imprint {
