@@ -79,8 +79,13 @@ void StrokeCollector::add_silhouettes(const ViewOf& view, const Style& style, co
   if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) add_solid(*shape, view, false, style, hidden);
   each_surface([&](const SurfacePtr& surface) {
     if (!surface->bounded() || dynamic_cast<const Plane*>(surface.get())) return;
-    each_smooth_part(surface,
-                     [&](const SurfacePtr& part) { add(silhouette(fitted_copy(part), view), {part}, style, hidden); });
+    each_smooth_part(surface, [&](const SurfacePtr& part) {
+      // What the copy's search leaves open the surface itself may tell.
+      const SurfacePtr copy = fitted_copy(part);
+      Contours found = silhouette(copy, view);
+      if (!found.complete && copy != part) found = silhouette(part, view);
+      add(found, {part}, style, hidden);
+    });
   });
 }
 
