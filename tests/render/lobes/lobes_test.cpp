@@ -54,6 +54,16 @@ ClearLobe glass(double roughness, bool thin = false) {
   return lobe;
 }
 
+// Under a film of water 300 nm thick.
+ClearLobe filmed(ClearLobe lobe, double index) {
+  static std::vector<FilmTablePtr> films;
+  films.push_back(std::make_shared<FilmTable>(1.33, 300, 300, [index](double) { return std::complex<double>(index); }));
+  lobe.film = films.back().get();
+  lobe.thickness = 300;
+  lobe.index = index;
+  return lobe;
+}
+
 CoatedMattLobe white_plastic(double roughness) {
   CoatLobe coat = coat_lobe(1.5);
   coat.roughness = roughness;
@@ -91,6 +101,12 @@ std::vector<Subject> subjects() {
       subject("very rough glass", glass(0.8), 0.4, {1, 1.5}),
       subject("thin pane", glass(0, true), 1e-3),
       subject("rough thin pane", glass(0.5, true), 0.2),
+      subject("filmed glass", filmed(glass(0), 1.5), 1e-3, {1, 1.5}),
+      subject("filmed glass, from inside", filmed(glass(0), 1.5), 1e-3, {1.5, 1}),
+      subject("rough filmed glass", filmed(glass(0.4), 1.5), 0.08, {1, 1.5}),
+      subject("rough filmed glass, from inside", filmed(glass(0.4), 1.5), 0.25, {1.5, 1}),
+      subject("filmed pane", filmed(glass(0, true), 1.5), 1e-3),
+      subject("soap film", filmed(glass(0, true), 1), 1e-3),
       subject("smooth plastic", white_plastic(0), 1e-3),
       subject("plastic 0.4", white_plastic(0.4), 1e-3),
       subject("plastic 1", white_plastic(1), 1e-3),
