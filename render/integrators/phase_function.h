@@ -1,4 +1,5 @@
-// How light is turned in substances that scatter it (L. Henyey, J. Greenstein, "Diffuse radiation in the galaxy", 1941).
+// How light is turned in substances that scatter it (L. Henyey, J. Greenstein, "Diffuse radiation in the galaxy",
+// 1941).
 #pragma once
 
 #include <algorithm>
