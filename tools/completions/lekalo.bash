@@ -14,13 +14,13 @@ _lekalo() {
     measure:--cubature)
       words='1 3 4 6 7' ;;
     render:--layers | make:--layers)
-      words='color direct indirect emission diffuse specular transmission light_groups depth position normal geometric_normal uv id albedo quantity samples variance cryptomatte_object cryptomatte_material' ;;
+      words='color direct indirect emission diffuse specular transmission light_groups depth position normal geometric_normal uv id albedo quantity samples variance denoised cryptomatte_object cryptomatte_material' ;;
     render:--representation | make:--representation)
       words='direct mesh' ;;
     compare:--metric)
       words='flip rmse psnr ssim max' ;;
     export:--format)
-      words='obj ply stl json step pov' ;;
+      words='obj ply stl gltf glb html json step pov' ;;
     new:--kind)
       words='picture drawing graph plate suite' ;;
     render:--isa | make:--isa | test:--isa | draw:--isa)

@@ -16,7 +16,7 @@ commands=(
   'measure:Length, area, volume, moments; topology; distance, intersections; comparison with a table'
   'trace:All hits of rays with the scene'\''s objects, in order'
   'draw:Draw a scene as lines (SVG, PDF, PNG, TikZ), visible and hidden ones told apart'
-  'export:Write what a scene shows as triangles (OBJ, PLY, STL) and polylines (OBJ), curves and surfaces as NURBS (JSON), boundary representations (STEP), or the scene for POV-Ray'
+  'export:Write what a scene shows as triangles (OBJ, PLY, STL, glTF) and polylines (OBJ, glTF), curves and surfaces as NURBS (JSON), boundary representations (STEP), the scene for POV-Ray, or a web page (HTML)'
   'types:List the types that scene files can name, or explain one, or a section'
   'schema:Print the JSON Schema of scene files or suites, for editors'
   'completions:Print completions for a shell, or the manual page'
@@ -45,7 +45,7 @@ case $command in
       '--isa[instruction set\: sse2 gives the same bits on every machine; avx2, avx512, native \[native\]]:NAME:(sse2 avx2 avx512 native)' \
       '--crop[only this part, in pixels]:X0,Y0,X1,Y1: ' \
       '--representation[of every object\: direct or mesh]:TEXT:(direct mesh)' \
-      '*--layers[layers of OpenEXR files, separated by commas; all from color to samples by default]:NAMES:(color direct indirect emission diffuse specular transmission light_groups depth position normal geometric_normal uv id albedo quantity samples variance cryptomatte_object cryptomatte_material)' \
+      '*--layers[layers of OpenEXR files, separated by commas; all from color to samples by default]:NAMES:(color direct indirect emission diffuse specular transmission light_groups depth position normal geometric_normal uv id albedo quantity samples variance denoised cryptomatte_object cryptomatte_material)' \
       '--half[R G B A of OpenEXR files as half (11 bits) in place of float]' \
       '--frames[N numbered pictures while a parameter runs from A to B]:NAME=A..B\:N: ' \
       '--only[of --frames only these, by number]:9-16,20: ' \
@@ -71,7 +71,7 @@ case $command in
       '--isa[instruction set\: sse2 gives the same bits on every machine; avx2, avx512, native \[native\]]:NAME:(sse2 avx2 avx512 native)' \
       '--crop[only this part, in pixels]:X0,Y0,X1,Y1: ' \
       '--representation[of every object\: direct or mesh]:TEXT:(direct mesh)' \
-      '*--layers[layers of OpenEXR files, separated by commas; all from color to samples by default]:NAMES:(color direct indirect emission diffuse specular transmission light_groups depth position normal geometric_normal uv id albedo quantity samples variance cryptomatte_object cryptomatte_material)' \
+      '*--layers[layers of OpenEXR files, separated by commas; all from color to samples by default]:NAMES:(color direct indirect emission diffuse specular transmission light_groups depth position normal geometric_normal uv id albedo quantity samples variance denoised cryptomatte_object cryptomatte_material)' \
       '--half[R G B A of OpenEXR files as half (11 bits) in place of float]' \
       '--frames[N numbered pictures while a parameter runs from A to B]:NAME=A..B\:N: ' \
       '--only[of --frames only these, by number]:9-16,20: ' \
@@ -240,7 +240,7 @@ case $command in
       '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
       '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
       '*:NAME: ' \
-      '--format[what to write; else the output'\''s extension decides]:NAME:(obj ply stl json step pov)' \
+      '--format[what to write; else the output'\''s extension decides]:NAME:(obj ply stl gltf glb html json step pov)' \
       '-o[file to write; without it SCENE.FORMAT here]:FILE:_files' '--output[file to write; without it SCENE.FORMAT here]:FILE:_files' \
       '--sag[largest distance of a triangle from its surface, of a chord from its curve]:LENGTH: ' \
       '--tolerance[step\: largest distance of a fit, of the size of each]:NUMBER: ' \

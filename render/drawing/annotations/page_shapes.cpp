@@ -18,14 +18,13 @@ std::vector<SheetItem> line_with_heads(const Vec2& from, const Vec2& to, bool st
   const double length = glm::length(to - from);
   const Vec2 way = (to - from) / length;
   const double size = std::min(arrow_size, 0.5 * length);
-  std::vector<SheetItem> items;
-  items.reserve(3);
-  items.emplace_back(drawn(
-      straight_path({from + (start ? shortened_by(size) : 0.0) * way, to - (end ? shortened_by(size) : 0.0) * way}),
-      pen));
-  if (start) items.push_back(arrow_head(from, -way, size, pen));
-  if (end) items.push_back(arrow_head(to, way, size, pen));
-  return items;
+  // Paths first: of growing lists of items g++ 12 warns without reason.
+  std::vector<SheetPath> paths(1, drawn(straight_path({from + (start ? shortened_by(size) : 0.0) * way,
+                                                       to - (end ? shortened_by(size) : 0.0) * way}),
+                                        pen));
+  if (start) paths.push_back(arrow_head(from, -way, size, pen));
+  if (end) paths.push_back(arrow_head(to, way, size, pen));
+  return {paths.begin(), paths.end()};
 }
 
 // Two quarter turns, a straight part, the tip, and the same back.
@@ -53,45 +52,6 @@ std::string side_towards(const Vec2& way) {
                                     "left",  "above left",  "above", "above right"};
   const double eighth = std::atan2(way.y, way.x) / (kPi / 4);
   return kSides[(static_cast<int>(std::lround(eighth)) + 8) % 8];
-}
-
-namespace {
-
-// The circle or arc that a curve is, or that a surface has across its axis.
-Circle circle_of(CurvePtr curve, const SurfacePtr& surface) {
-  if (!curve) {
-    const Rectangle domain = surface->domain();
-    const auto middle = [](const Interval& range) { return range.width() < kInfinity ? range.middle() : 0.0; };
-    for (const IsoDirection held : {IsoDirection::v, IsoDirection::u}) {
-      curve = std::make_shared<ParameterLine>(surface, held, middle(held == IsoDirection::v ? domain.v : domain.u));
-      if (curve->domain().width() < kInfinity && is_round(*curve)) break;
-    }
-  }
-  const Interval t = curve->domain();
-  const auto at = [&](double x) { return curve->point(t.lo + x * t.width()); };
-  const Circle part = arc_through(at(0), at(0.31), at(0.67));
-  constexpr double kClosed = 1e-6;  // of the radius
-  if (glm::length(at(1) - at(0)) > kClosed * part.radius()) return arc_through(at(0), at(0.5), at(1));
-  return Circle(part.frame(), part.radius(), {0, kTwoPi});
-}
-
-}  // namespace
-
-std::vector<Circle> circles_of(const std::vector<std::any>& things) {
-  std::vector<Circle> circles;
-  for (const std::any& one : things) {
-    if (const auto* curve = std::any_cast<CurvePtr>(&one); curve && is_round(**curve))
-      circles.push_back(circle_of(*curve, nullptr));
-    if (const auto* surface = std::any_cast<SurfacePtr>(&one); surface && is_round(**surface))
-      circles.push_back(circle_of(nullptr, *surface));
-    if (const auto* body = std::any_cast<BodyPtr>(&one))
-      for (const Face& face : (*body)->faces)
-        if (is_round(*face.surface)) {
-          circles.push_back(circle_of(nullptr, face.surface));
-          break;
-        }
-  }
-  return circles;
 }
 
 std::string dimension_number(double value, int decimals) {

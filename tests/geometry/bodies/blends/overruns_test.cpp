@@ -6,6 +6,7 @@
 #include "geometry/bodies/blends/body_draft.h"
 #include "geometry/bodies/constructions/swept_body.h"
 #include "geometry/bodies/primitives/primitives.h"
+#include "geometry/bodies/topology/selection.h"
 #include "geometry/queries/closest/position.h"
 #include "geometry/queries/measures/mass_properties.h"
 #include "geometry/surfaces/analytic/plane.h"
@@ -50,7 +51,9 @@ Body plate_with_cylinder() {
 
 BlendRequest fillet(const Body& body, const std::string& a, const std::string& b, double radius, Overflow overflow) {
   BlendRequest request;
-  request.edges = edges_between(body, a, b);
+  Selector between;
+  between.between = {a, b};
+  request.edges = select(body, Element::edge, between);
   request.rule.sizes = {ScalarLaw(radius), ScalarLaw(radius)};
   request.rule.role = "fillets.0", request.rule.field = "radius";
   request.rule.overflow = overflow;
