@@ -287,8 +287,8 @@ void PathTracer::add_glow(size_t number, const Boundary& seen, const Bsdf& bsdf,
   const Spectrum emission = met.material->scattering(met.point, kPrimaries).emission;
   const double density = choices_[world_.lamps().size() + number] / cone.solid_angle();
   const double weight = power_heuristic(density, bsdf.density(direction));
-  const Spectrum light =
-      static_cast<float>(weight / density) * (reflected * emission * transmittance(media.current().extinction(), hit.t));
+  const Spectrum light = static_cast<float>(weight / density) *
+                         (reflected * emission * transmittance(media.current().extinction(), hit.t));
   note_first(seen, bsdf, direction);
   ++bounces_;
   add(light, 0, bounces_ == 1);

@@ -107,7 +107,7 @@ class Figures(ProgramTest):
             self.skipTest("chromium is not installed")
         blank = None
         self.write("blank.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm"/>')
-        for path in [self.folder / "blank.svg", *sorted(FIGURES.glob("*.yaml"))[:40:8]]:
+        for path in [self.folder / "blank.svg", *sorted(set(FIGURES.glob("*.yaml")) - {FIGURES / "index.yaml"})[:40:8]]:
             with self.subTest(path.name):
                 if path.suffix == ".yaml":
                     self.run_program("draw", str(path), "-o", f"{path.stem}.svg", "--quiet")

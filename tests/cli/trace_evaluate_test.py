@@ -140,7 +140,7 @@ class TraceThenEvaluate(ProgramTest):
         geometry = "".join(f"  of_{name}: {{ type: {name}, {fields} }}\n" for name, fields in SURFACES.items())
         objects = "".join(f"  - {{ shape: {name}, transform: {{ translate: [{12 * k}, 0, 0] }} }}\n"
                           for k, name in enumerate(names))
-        self.check(names, 12, 4, f"lekalo: 1\ngeometry:\n{geometry}objects:\n{objects}", [0.5, 0.5, 0.5])
+        self.check(names, 12, 5, f"lekalo: 1\ngeometry:\n{geometry}objects:\n{objects}", [0.5, 0.5, 0.5])
 
     def test_faces_and_patches(self):
         teapot = ROOT / "scenes/data/newell_teapot.txt"

@@ -41,8 +41,8 @@ class ConnectedMesh {
   Side across(int f, int k) const { return side(corner(f, k + 1), corner(f, k)); }
 
   int sharp_edges_at(int v) const;
-  // What a vertex becomes when faces are divided again and again; all faces around it have four corners. At the end of a
-  // single sharp edge nearly so, the nearer the smaller the faces.
+  // What a vertex becomes when faces are divided again and again; all faces around it have four corners. At the end of
+  // a single sharp edge nearly so, the nearer the smaller the faces.
   Vec3 limit(int v) const;
 
   // Each face of n corners in n of four. Child k of face f is face first_child[f] + k; its corner k is that of f.

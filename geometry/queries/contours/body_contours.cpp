@@ -104,6 +104,15 @@ struct FaceOf {
   }
 };
 
+// A curve that lies on the contour all along, as seen in some places.
+bool runs_along(const Curve& curve, const MeasuredContour& contour, double near) {
+  for (const double share : {0.0, 0.11, 0.29, 0.5, 0.73, 0.91, 1.0}) {
+    const Interval t = curve.domain();
+    if (!contour.place_of(curve.point(t.lo + share * t.width()), near)) return false;
+  }
+  return true;
+}
+
 class Joining {
  public:
   explicit Joining(double size) : size_(size) {}
@@ -300,10 +309,19 @@ BodyContours silhouette(const Body& body, const ViewOf& view) {
     const Contours found = silhouette(face->surface, view);
     keep_points(joining, found, face, nullptr);
     for (const Contour& contour : found.branches) {
+      const MeasuredContour measured(contour);
       std::vector<Vec3> cuts;
-      for (const int edge : face.edges())
-        for (const CurveIntersection& intersection : intersect(*contour.curve, *body.edges[edge].curve).points)
+      for (const int number : face.edges()) {
+        const Curve& edge = *body.edges[number].curve;
+        // The search for crossings takes long over common parts.
+        if (runs_along(edge, measured, kSameJoint * size)) {
+          cuts.push_back(edge.point(edge.domain().lo));
+          cuts.push_back(edge.point(edge.domain().hi));
+          continue;
+        }
+        for (const CurveIntersection& intersection : intersect(*contour.curve, edge).points)
           cuts.push_back(intersection.point);
+      }
       joining.add(contour, cuts, k, -1, [&](double t) { return face.holds(contour.images[0]->point(t)); });
     }
   }

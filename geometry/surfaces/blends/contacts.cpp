@@ -47,8 +47,7 @@ Triple<Jet<double, 1>> varied(const std::array<Vec3, 3>& of, int axis) {
 
 }  // namespace
 
-Contacts::Contacts(BlendLaw law, double start_t, const std::array<Vec2, 2>& starts, bool known)
-    : law_(std::move(law)) {
+Contacts::Contacts(BlendLaw law, double start_t, const std::array<Vec2, 2>& starts, bool known) : law_(std::move(law)) {
   if (!(law_.sizes[0].is_constant() && law_.sizes[1].is_constant())) fraction_ = ArcFraction(measured());
   const Interval all = law_.guide->domain();
   const Place start = place_at(start_t);

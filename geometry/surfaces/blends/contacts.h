@@ -45,8 +45,8 @@ struct Contact {
 class Contacts {
  public:
   // `starts`: parameters on both surfaces near to the guide's point at `start_t`, or on both where the guide is their
-  // intersection; with `known` they are contacts already. Throws FieldError where there are no such contacts, the ball does not fit into a surface, or a size
-  // is not positive.
+  // intersection; with `known` they are contacts already. Throws FieldError where there are no such contacts, the ball
+  // does not fit into a surface, or a size is not positive.
   Contacts(BlendLaw law, double start_t, const std::array<Vec2, 2>& starts, bool known = false);
 
   const BlendLaw& law() const { return law_; }

@@ -175,6 +175,7 @@ void SchemaWriter::add_common_definitions() {
                        {"scale", any_of({formula, array_of(formula, 3, 3)})},
                        {"mirror", ref("direction")},
                        {"matrix", ref("number_grid")},
+                       {"pose", {{"type", "string"}}},
                        {"about", ref("place")},
                        {"repeat", ref("repeat")}}},
                      {"additionalProperties", false}};
@@ -254,6 +255,9 @@ Json SchemaWriter::single(const FieldType& type) {
     case Kind::reference:
     case Kind::references: {
       std::vector<Json> choices{ref("reference"), thing(type.categories)};
+      // Solids that are put together give their boundary where a body is asked for.
+      if (std::find(type.categories.begin(), type.categories.end(), Category::body) != type.categories.end())
+        choices.push_back(thing({Category::shape}));
       if (std::find(type.categories.begin(), type.categories.end(), Category::point) != type.categories.end())
         choices.push_back(ref("coordinates"));
       if (!section_of(type.categories.front())) choices.erase(choices.begin());

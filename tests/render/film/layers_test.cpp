@@ -239,17 +239,41 @@ TEST(Noise, ResumedPictureIsTheSameBits) {
   scene.model.film.layers = {"color", "diffuse", "light_groups", "samples", "variance", "cryptomatte_object"};
   const auto drawn = world(scene);
   const RenderResult whole = render(*drawn, {});
+  // Stopped from inside, after some thousand samples.
+  class Stopping final : public Integrator {
+   public:
+    Stopping(IntegratorPtr inner, std::atomic<bool>& stop, std::atomic<int>& samples)
+        : inner_(std::move(inner)), stop_(stop), samples_(samples) {}
+    RaySample trace(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const override {
+      return inner_->trace(world, ray, first, random);
+    }
+    RaySample trace_parts(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const override {
+      if (++samples_ == 5000) stop_ = true;
+      return inner_->trace_parts(world, ray, first, random);
+    }
+    bool tells_parts() const override { return inner_->tells_parts(); }
+    IntegratorPtr prepared(const World& world) const override {
+      const IntegratorPtr ready = inner_->prepared(world);
+      return ready ? std::make_shared<Stopping>(ready, stop_, samples_) : nullptr;
+    }
+
+   private:
+    IntegratorPtr inner_;
+    std::atomic<bool>& stop_;
+    std::atomic<int>& samples_;
+  };
   std::atomic<bool> stop = false;
-  int calls = 0;
+  std::atomic<int> samples = 0;
+  auto model = std::make_shared<Model>(drawn->model());
+  model->integrator = std::make_shared<Stopping>(model->integrator, stop, samples);
+  const World stopping(model);
   RenderOptions options{.threads = 1, .partial_file = file, .identity = 1};
   options.stop = &stop;
-  options.progress = [&](double, uint64_t) { stop = ++calls == 1; };
-  RenderResult part = render(*drawn, options);
+  RenderResult part = render(stopping, options);
   EXPECT_FALSE(part.complete);
   options.resume_files = {file};
-  options.progress = nullptr;
   stop = false;
-  part = render(*drawn, options);
+  part = render(stopping, options);
   EXPECT_TRUE(part.complete);
   EXPECT_TRUE(same(part.image, whole.image));
   std::filesystem::remove(file);
