@@ -206,7 +206,8 @@ CurvePtr along_length(const CurvePtr& of, double end) {
   const auto law = polynomial_approximation(t_at, stretches, 1e-13 * domain.width());
   if (!law) throw FieldError("of", "the curve rests somewhere: its parameter is no smooth function of the length");
   properties.domain = {0, end};
-  if (properties.period > 0) properties.period = end;
+  // An arc of a circle has the period of the circle, and does not close.
+  properties.period = properties.period > 0 && of->is_closed() ? end : 0;
   add_operand(properties, *law);
   return std::make_shared<ComposedCurve<ByLaw<CurveLaw>>>(ByLaw<CurveLaw>{of, {law}}, properties);
 }
