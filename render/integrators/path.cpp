@@ -54,6 +54,18 @@ bool misses_light(const Model& model) {
   return found;
 }
 
+std::string without_photons(const Model& model) {
+  std::string found;
+  int number = 0;
+  each_object(model.objects, [&](const Object& object) {
+    ++number;
+    for (const Material* material : {object.material.get(), object.back_material.get()})
+      if (found.empty() && material && throws_caustics(*material) && !bounds(object.shape).bounded())
+        found = object.name.empty() ? "object " + std::to_string(number) : object.name;
+  });
+  return found;
+}
+
 TypeDeclaration path_integrator_type() {
   return declare(Category::integrator, "path",
                  "Path tracing: light over any number of surfaces, with its noise, which falls as the square root of "

@@ -116,6 +116,16 @@ image: {{ size: [8, 8], samples: 4, background: [0.3, 0.5, 0.7] }}
         self.assertIn("roughness", self.complaint(other="{ type: plastic, roughness: 2 }"))
         self.assertIn("anisotropy", self.complaint(other="{ type: conductor, metal: Cu, anisotropy: 1 }"))
 
+    def test_endless_mirrors_send_no_photons(self):
+        """It is said, and not where the mirror has a size."""
+        for plane, told in (("origin: [0, 0, 0]", True), ("origin: [0, 0, 0], size: [9, 9]", False)):
+            self.write("scene.yaml", f"lekalo: 1\ngeometry: {{ f: {{ type: plane, {plane} }}, b: {{ type: ball, radius: 1, center: [0, 0, 1] }} }}\n"
+                       "objects: [{ shape: f, name: sea, material: { type: conductor, metal: Ag, roughness: 0 } }, { shape: b }]\n"
+                       "camera: { type: perspective, from: [4, -7, 4], at: [0, 0, 0] }\nintegrator: { type: path, photons: 1000 }\n"
+                       "image: { size: [16, 12], samples: 1 }\n")
+            _, errors = self.run_program("render", "scene.yaml", "-o", "x.png")
+            self.assertEqual("no photons are sent, as 'sea'" in errors, told, errors)
+
 
 if __name__ == "__main__":
     unittest.main()

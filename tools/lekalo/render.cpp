@@ -275,6 +275,9 @@ int render_frame(Run& run, const Frame& frame, bool first) {
                  clear);
     const std::any made = model->integrator ? model->integrator->made_from() : std::any();
     const auto* path = std::any_cast<render::PathOptions>(&made);
+    if (const std::string endless = path ? render::without_photons(*model) : ""; !endless.empty() && path->photons > 0)
+      fmt::print(stderr, "note: no photons are sent, as '{}' mirrors or refracts and has no bounds: give it a size\n",
+                 endless);
     if (path && path->photons == 0 && !outputs.empty() && render::misses_light(*model))
       fmt::print(
           stderr,
