@@ -72,6 +72,9 @@ TEST(Manual, ExamplesAreScenes) {
     // A radius is that of something round.
     if (type.name.ends_with("s_dimension") || type.name.ends_with("r_dimension"))
       if (const size_t at = scene.find("of: my_curve"); at != std::string::npos) scene.replace(at, 12, "of: round");
+    // A cutting plane is that of a panel with a section.
+    if (type.name == "cutting_plane")
+      scene += "panels: { text: { camera: { view: front }, section: { planes: { normal: -y } } } }\n";
     EXPECT_EQ(build_text(scene).said, "") << type.name << "\n" << scene;
   }
 }
