@@ -8,6 +8,7 @@
 
 #include "render/integrators/boundary.h"
 #include "render/integrators/dispersion.h"
+#include "render/integrators/path_limits.h"
 #include "render/integrators/phong_model.h"
 #include "render/lights/lights.h"
 #include "render/lobes/bsdf.h"
@@ -20,9 +21,6 @@ using geometry::kPi;
 
 namespace {
 
-constexpr int kMaxPasses = 1000;
-constexpr int kSafeBounces = 4;
-constexpr double kLongestLife = 0.95, kLeastLife = 0.02;
 // With more things that throw light they share one ball.
 constexpr size_t kMostBalls = 64;
 // Share of light that a clear coat throws, against 1 of glass and metal; of the choice alone.
@@ -277,7 +275,7 @@ void PhotonTracer::follow(Ray ray, Spectrum power, int group, SampleStream& rand
     bounces += !straight;
     if (bounces > options_.max_depth) return;
     if (bounces > kSafeBounces) {
-      const double life = std::clamp(static_cast<double>(power.largest() / begun), kLeastLife, kLongestLife);
+      const double life = chance_to_live(static_cast<double>(power.largest() / begun));
       if (choice.y >= life) return;
       power *= static_cast<float>(1 / life);
     }

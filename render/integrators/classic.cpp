@@ -15,6 +15,7 @@
 #include "geometry/describe.h"
 #include "render/integrators/boundary.h"
 #include "render/integrators/classic_reading.h"
+#include "render/integrators/path_limits.h"
 #include "render/integrators/phong_model.h"
 #include "render/lobes/fresnel.h"
 #include "render/materials/textured_color.h"
@@ -26,8 +27,6 @@ using namespace geometry;
 
 namespace {
 
-// Boundaries in a row that are no boundaries for light; more can only be a broken scene.
-constexpr int kMaxPasses = 1000;
 // Light of a highlight below which its grain is not seen.
 constexpr float kGrain = 0.004f;
 constexpr float kOverPi = static_cast<float>(1 / kPi);

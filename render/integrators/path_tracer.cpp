@@ -5,6 +5,7 @@
 
 #include "render/integrators/caustics.h"
 #include "render/integrators/dispersion.h"
+#include "render/integrators/path_limits.h"
 #include "render/integrators/phase_function.h"
 #include "render/integrators/phong_model.h"
 #include "render/lobes/bsdf.h"
@@ -17,11 +18,6 @@ using geometry::kPi;
 
 namespace {
 
-// Boundaries in a row that are no boundaries for light; more can only be a broken scene.
-constexpr int kMaxPasses = 1000;
-// Paths live at least so many bounces, and then by chance (Russian roulette).
-constexpr int kSafeBounces = 4;
-constexpr double kLongestLife = 0.95, kLeastLife = 0.02;
 // Walks in milky substances live whole until their share is the inverse of this.
 constexpr double kDimWalk = 5;
 // Share of the choice of lamps that does not look at how bright they seem.
@@ -528,7 +524,7 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
       origin_.gone = 0;
       origin_.choices.swap(choices_);
       if (bounces_ > kSafeBounces) {
-        const double life = std::clamp(static_cast<double>(share_.largest()), kLeastLife, kLongestLife);
+        const double life = chance_to_live(static_cast<double>(share_.largest()));
         if (lobe_choice.y >= life) return;
         share_ *= static_cast<float>(1 / life);
       }

@@ -72,27 +72,6 @@ LineOnSurface line_between(const SurfacePtr& surface, const Vec2& from, const Ve
   return {line, image_line(range, from, to)};
 }
 
-std::optional<Vec2> foot_place(const Surface& surface, const Vec3& p, Vec2 near) {
-  constexpr int kMaxIterations = 40;
-  constexpr double kRounding = 1e-17, kNearly = 1e-11;
-  double last = kInfinity;
-  for (int i = 0; i < kMaxIterations; ++i) {
-    const SurfaceJet s = surface.evaluate(near.x, near.y, 1);
-    const Vec3 off = p - s.point();
-    const double e = glm::dot(s.du(), s.du()), f = glm::dot(s.du(), s.dv()), g = glm::dot(s.dv(), s.dv()),
-                 a = glm::dot(off, s.du()), b = glm::dot(off, s.dv()), d = e * g - f * f;
-    if (!(d > 0)) return std::nullopt;
-    const Vec2 step((a * g - b * f) / d, (b * e - a * f) / d);
-    const double length = glm::length(step.x * s.du() + step.y * s.dv());
-    near += step;
-    if (!(std::abs(near.x) + std::abs(near.y) < kInfinity)) return std::nullopt;
-    const double scale = glm::length(p) + std::sqrt(std::max(e, g));
-    if (length <= kRounding * scale || (length >= last && length < kNearly * scale)) return near;
-    last = length;
-  }
-  return std::nullopt;
-}
-
 Curve2Ptr image_on(const SurfacePtr& surface, const CurvePtr& curve, const Vec2& near) {
   if (const auto* plane = dynamic_cast<const Plane*>(surface.get())) return image_in(plane->frame(), curve);
   constexpr int kSteps = 64;

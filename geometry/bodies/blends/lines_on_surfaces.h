@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/bodies/topology/line_on_surface.h"
+#include "geometry/bodies/topology/near_foot.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
@@ -14,8 +15,5 @@ LineOnSurface line_between(const SurfacePtr& surface, const Vec2& from, const Ve
 // say where angles begin. Exact in a plane, else a polynomial fitted to 1e-13 of the parameters. Null where there is
 // none.
 Curve2Ptr image_on(const SurfacePtr& surface, const CurvePtr& curve, const Vec2& near);
-
-// The parameters of the foot point of p near to a place; nothing where Newton's iteration finds none.
-std::optional<Vec2> foot_place(const Surface& surface, const Vec3& p, Vec2 near);
 
 }  // namespace lekalo::geometry

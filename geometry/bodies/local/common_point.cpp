@@ -92,7 +92,7 @@ std::optional<Vec3> piercing_point(const Surface& surface, const Curve& image, d
     if (!(std::abs(det) > 1e-9 * glm::length(along) * glm::length(normal))) return std::nullopt;
     const double by = glm::dot(gap, normal) / det;
     t += by;
-    at = located(*other.surface, s.point() + by * along, at);
+    at = near_foot(*other.surface, s.point() + by * along, at).place;
     if (std::abs(by) * glm::length(along) <= 1e-14 * size) {
       const Vec3 uv = image.point(t);
       const Vec3 p = surface.point(uv.x, uv.y);
@@ -105,7 +105,7 @@ std::optional<Vec3> piercing_point(const Surface& surface, const Curve& image, d
 
 double distance_from(const SurfaceNear& of, const Vec3& point) {
   if (of.plane) return std::abs(glm::dot(of.plane->z, point - of.plane->origin));
-  const Vec2 at = located(*of.surface, point, of.near);
+  const Vec2 at = near_foot(*of.surface, point, of.near).place;
   return glm::length(of.surface->point(at.x, at.y) - point);
 }
 

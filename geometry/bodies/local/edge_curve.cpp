@@ -54,7 +54,7 @@ Curve2Ptr image_of(const EdgeSide& side, const LineOnSurface& line, const Vec3& 
     }
     return image_in(*side.plane, line.curve);
   }
-  Vec2 a = located(*side.surface, from, side.near[0]), b = located(*side.surface, to, side.near[1]);
+  Vec2 a = near_foot(*side.surface, from, side.near[0]).place, b = near_foot(*side.surface, to, side.near[1]).place;
   snap(a, b, side.surface->domain());
   Curve2Ptr image = image_line(line.curve->domain(), a, b);
   for (int k = 0; k <= kSamples; ++k) {
@@ -99,7 +99,8 @@ bool is_ruled(const Surface& surface, bool along_v, const Rectangle& where, doub
 
 std::optional<EdgeCurve> ruled_section(const EdgeSide& ruled, const EdgeSide& plane, const Vec3& from, const Vec3& to,
                                        double size) {
-  const Vec2 a = located(*ruled.surface, from, ruled.near[0]), b = located(*ruled.surface, to, ruled.near[1]);
+  const Vec2 a = near_foot(*ruled.surface, from, ruled.near[0]).place,
+             b = near_foot(*ruled.surface, to, ruled.near[1]).place;
   const Rectangle d = ruled.surface->domain();
   for (const bool along_v : {true, false}) {
     Interval range =
@@ -154,7 +155,8 @@ SurfacePtr wide_enough(const EdgeSide& side, const Vec3& from, const Vec3& to) {
   if (side.plane) return std::make_shared<Plane>(*side.plane);
   const Rectangle d = side.surface->domain();
   const Periods periods = side.surface->periods();
-  const Vec2 a = located(*side.surface, from, side.near[0]), b = located(*side.surface, to, side.near[1]);
+  const Vec2 a = near_foot(*side.surface, from, side.near[0]).place,
+             b = near_foot(*side.surface, to, side.near[1]).place;
   const auto widened = [](const Interval& own, double x, double y, double period) {
     if (period > 0 && own.width() >= period * (1 - 1e-12)) return own;
     const double lo = std::min({own.lo, x, y}), hi = std::max({own.hi, x, y}), more = 0.02 * (hi - lo);
@@ -203,7 +205,7 @@ std::optional<EdgeCurve> searched_edge(const std::array<EdgeSide, 2>& sides, con
       for (int k = 0; k < 2; ++k)
         if (!sides[k].plane)
           edge.images[k] =
-              at_periods(edge.images[k], *sides[k].surface, located(*sides[k].surface, from, sides[k].near[0]));
+              at_periods(edge.images[k], *sides[k].surface, near_foot(*sides[k].surface, from, sides[k].near[0]).place);
       best = edge;
     }
   }
@@ -240,7 +242,7 @@ LineOnSurface line_on_surface(const SurfacePtr& surface, const Vec2& from, const
 std::optional<EdgeCurve> parameter_edge(const std::array<EdgeSide, 2>& sides, const Vec3& from, const Vec3& to,
                                         double size) {
   const EdgeSide& side = sides[0];
-  Vec2 a = located(*side.surface, from, side.near[0]), b = located(*side.surface, to, side.near[1]);
+  Vec2 a = near_foot(*side.surface, from, side.near[0]).place, b = near_foot(*side.surface, to, side.near[1]).place;
   const Rectangle d = side.surface->domain();
   snap(a, b, d);
   if (a == b) return std::nullopt;

@@ -189,21 +189,6 @@ SurfacePtr unwrapped(const SurfacePtr& surface) {
   return moved && is_rigid(moved->map()) ? moved_support(moved->original(), moved->map()) : surface;
 }
 
-Vec2 located(const Surface& surface, const Vec3& point, Vec2 at) {
-  for (int step = 0; step < 40; ++step) {
-    const SurfaceJet s = surface.evaluate(at.x, at.y, 1);
-    const Vec3 gap = point - s.point();
-    const double e = glm::dot(s.du(), s.du()), f = glm::dot(s.du(), s.dv()), g = glm::dot(s.dv(), s.dv());
-    const double det = e * g - f * f;
-    if (!(det > 0)) return at;
-    const double p = glm::dot(gap, s.du()), q = glm::dot(gap, s.dv());
-    const Vec2 by((g * p - f * q) / det, (e * q - f * p) / det);
-    at += by;
-    if (!(std::abs(by.x) * std::sqrt(e) + std::abs(by.y) * std::sqrt(g) > 1e-15 * glm::length(point))) break;
-  }
-  return at;
-}
-
 Vec2 middle_of_face(const Body& body, int face) {
   Box3 box;
   for (const int c : body.loops[body.faces[face].loops.front()].coedges) {

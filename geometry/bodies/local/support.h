@@ -5,6 +5,7 @@
 #include <string>
 
 #include "geometry/bodies/topology/entity_names.h"
+#include "geometry/bodies/topology/near_foot.h"
 #include "geometry/body.h"
 #include "geometry/describe.h"
 
@@ -22,9 +23,6 @@ SurfacePtr offset_support(const SurfacePtr& surface, double distance, const char
 SurfacePtr moved_support(const SurfacePtr& surface, const Affine& map);
 // A surface that has been moved rigidly, as one of its own kind likewise; others as they are.
 SurfacePtr unwrapped(const SurfacePtr& surface);
-
-// The parameters of the surface's point nearest to a point close by, by Newton's method from parameters that are near.
-Vec2 located(const Surface& surface, const Vec3& point, Vec2 near);
 
 // Half the way between the ends of a face's loops in its parameter plane.
 Vec2 middle_of_face(const Body& body, int face);

@@ -17,15 +17,14 @@ constexpr int kSamples = 64;  // of a smooth piece of an edge; a multiple of 4: 
 constexpr double kNearlyAsFar = 0.9;
 constexpr double kSameHeight = 1e-9;  // of the size
 
-std::vector<Vec3> samples(const Curve& curve) {
+}  // namespace
+
+std::vector<Vec3> points_along(const Curve& curve, int steps) {
   std::vector<Vec3> points{curve.point(curve.domain().lo)};
   for (const CurvePiece& piece : curve.pieces())
-    for (int k = 1; k <= kSamples; ++k)
-      points.push_back(curve.point(piece.domain.lo + piece.domain.width() * k / kSamples));
+    for (int k = 1; k <= steps; ++k) points.push_back(curve.point(piece.domain.lo + piece.domain.width() * k / steps));
   return points;
 }
-
-}  // namespace
 
 Vec3 extreme_point(const Distant& of, const Box3& box, const Vec3& way) {
   const Vec3 unit = glm::normalize(way);
@@ -65,11 +64,11 @@ Vec3 inner_point(const Body& body, int face) {
 
 Vec3 middle_of(const Curve& curve) { return curve.point(parameter_at_fraction(curve, 0.5)); }
 
-std::vector<Vec3> points_of_border(const Body& body, int face) {
+std::vector<Vec3> points_of_border(const Body& body, int face, int steps) {
   std::vector<Vec3> points;
   for (const int loop : body.faces[face].loops)
     for (const int coedge : body.loops[loop].coedges) {
-      const std::vector<Vec3> some = samples(*body.edges[body.coedges[coedge].edge].curve);
+      const std::vector<Vec3> some = points_along(*body.edges[body.coedges[coedge].edge].curve, steps);
       points.insert(points.end(), some.begin(), some.end());
     }
   return points;
@@ -81,7 +80,7 @@ std::vector<Vec3> points_at_end(const Body& body, const Vec3& way) {
   const double level = glm::dot(farthest, unit) - kSameHeight * bounds(body).diameter();
   std::vector<Vec3> points{farthest};
   for (const Edge& edge : body.edges)
-    for (const Vec3& p : samples(*edge.curve))
+    for (const Vec3& p : points_along(*edge.curve, kSamples))
       if (glm::dot(p, unit) >= level) points.push_back(p);
   return points;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "geometry/bodies/topology/landmarks.h"
 #include "geometry/describe.h"
 #include "geometry/expression/nearest_name.h"
 #include "geometry/queries/closest/closest_point.h"
@@ -57,24 +58,10 @@ std::vector<int> candidates(const Body& body, Element element) {
   return all;
 }
 
-std::vector<Vec3> samples(const Curve& curve) {
-  std::vector<Vec3> points{curve.point(curve.domain().lo)};
-  for (const CurvePiece& piece : curve.pieces())
-    for (int k = 1; k <= kSamples; ++k)
-      points.push_back(curve.point(piece.domain.lo + piece.domain.width() * k / kSamples));
-  return points;
-}
-
 std::vector<Vec3> samples(const Body& body, Element element, int index) {
   if (element == Element::vertex) return {body.vertices[index].point};
-  if (element == Element::edge) return samples(*body.edges[index].curve);
-  std::vector<Vec3> points;
-  for (const int loop : body.faces[index].loops)
-    for (const int coedge : body.loops[loop].coedges) {
-      const std::vector<Vec3> some = samples(*body.edges[body.coedges[coedge].edge].curve);
-      points.insert(points.end(), some.begin(), some.end());
-    }
-  return points;
+  if (element == Element::edge) return points_along(*body.edges[index].curve, kSamples);
+  return points_of_border(body, index, kSamples);
 }
 
 bool is_between(const Body& body, int edge, const std::set<int>& one, const std::set<int>& other) {
@@ -99,7 +86,7 @@ bool is_parallel(const Body& body, Element element, int index, const Vec3& way) 
     return glm::length(glm::cross(d, way)) <= kSameWay * glm::length(d) * length;
   };
   if (element == Element::edge) {
-    const std::vector<Vec3> points = samples(*body.edges[index].curve);
+    const std::vector<Vec3> points = points_along(*body.edges[index].curve, kSamples);
     const Vec3 chord = points.back() - points.front();
     return glm::length(chord) > 0 && std::all_of(points.begin() + 1, points.end(), [&](const Vec3& p) {
              return glm::length(glm::cross(p - points.front(), way)) <= kSameWay * glm::length(chord) * length;
