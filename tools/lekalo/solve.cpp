@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <cmath>
+
 #include "command.h"
 #include "json.h"
 
@@ -38,13 +40,16 @@ ordered_json as_json(const render::ConstraintReport& report) {
   return out;
 }
 
+// Rounding about 0 is no number to read; JSON has all digits.
+double shown(double x) { return std::abs(x) < 1e-15 ? 0 : x; }
+std::string shown(const geometry::Vec3& p) { return fmt::format("{} {} {}", shown(p.x), shown(p.y), shown(p.z)); }
+
 void print(const render::ConstraintReport& report) {
   const geometry::ConstraintSolution& s = report.solution;
-  for (const auto& [name, point] : report.points) fmt::print("{:18} {} {} {}\n", name, point.x, point.y, point.z);
-  for (const auto& [name, value] : report.variables) fmt::print("{:18} {}\n", name, value);
+  for (const auto& [name, point] : report.points) fmt::print("{:18} {}\n", name, shown(point));
+  for (const auto& [name, value] : report.variables) fmt::print("{:18} {}\n", name, shown(value));
   for (const auto& [name, pose] : report.poses)
-    fmt::print("{:18} moved by {} {} {}{}\n", name, pose.offset.x, pose.offset.y, pose.offset.z,
-               pose.linear == geometry::Mat3(1.0) ? "" : ", turned");
+    fmt::print("{:18} moved by {}{}\n", name, shown(pose.offset), pose.linear == geometry::Mat3(1.0) ? "" : ", turned");
   fmt::print("{} unknowns, {} equations of rank {}: {} degree{} of freedom", report.unknowns, s.equations, s.rank,
              s.freedom, s.freedom == 1 ? "" : "s");
   if (s.redundant > 0) fmt::print(", {} equation{} too many", s.redundant, s.redundant == 1 ? "" : "s");
