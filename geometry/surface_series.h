@@ -19,7 +19,7 @@ inline Triple<Interval> derivative_of(const SurfaceEnclosure& boxes, int i, int 
 
 // The derivative i0 times by u and j0 times by v along (u(t), v(t)); `derivatives` holds those up to the order
 // i0 + j0 + N at (u.c[0], v.c[0]), or over these ranges. Where that is more than kMaxSurfaceOrder the coefficients
-// beyond mean nothing.
+// beyond mean nothing; where a derivative is NaN, for its order is unknown, so are those of its order and above alone.
 template <class S, int N, class Derivatives>
 Triple<Jet<S, N>> along_surface(const Derivatives& derivatives, const Jet<S, N>& u, const Jet<S, N>& v, int i0 = 0,
                                 int j0 = 0) {
@@ -35,7 +35,9 @@ Triple<Jet<S, N>> along_surface(const Derivatives& derivatives, const Jet<S, N>&
     double factorial_j = 1;
     for (int j = 0; i + j <= most; ++j) {
       if (j > 0) term = term * dv, factorial_j *= j;
-      sum += (term * (S(1) / S(factorial_i * factorial_j))) * derivative_of(derivatives, i0 + i, j0 + j);
+      const Triple<S> d = (S(1) / S(factorial_i * factorial_j)) * derivative_of(derivatives, i0 + i, j0 + j);
+      for (int k = i + j; k <= N; ++k)
+        sum.x.c[k] += term.c[k] * d.x, sum.y.c[k] += term.c[k] * d.y, sum.z.c[k] += term.c[k] * d.z;
     }
   }
   return sum;

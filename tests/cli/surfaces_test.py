@@ -133,6 +133,19 @@ geometry:
             self.assertLessEqual(off, tolerance)
             self.assertGreater(off, tolerance / 100)  # no finer than it has to be
 
+    def test_sections_and_outlines_of_an_offset_of_a_formula(self):
+        """The section of the paraboloid's offset is a circle: radius r - 2 r d/w at the height r^2 + d/w, w^2 = 1 + 4 r^2."""
+        self.write("scene.yaml", "lekalo: 1\ngeometry:\n  bowl: { type: formula_surface, point: [u, v, u*u + v*v], domain: { u: [-1, 1], v: [-1, 1] } }\n"
+                   "  shifted: { type: offset_surface, of: bowl, distance: 0.1 }\nobjects: [{ shape: shifted }]\ncamera: { view: front }\n")
+        r = 0.6
+        w = math.sqrt(1 + 4 * r * r)
+        height = r * r + 0.1 / w
+        found = self.json_of("measure", "scene.yaml", "shifted", "--section", f"0,0,{height!r},0,0,1")
+        self.assertEqual(len(found["branches"]), 1)
+        self.assert_near(found["branches"][0]["length"], 2 * math.pi * (r - 0.2 * r / w), 1e-11)
+        self.assertEqual(len(self.json_of("measure", "scene.yaml", "shifted", "--silhouette", "1,0.2,0.3")["branches"]), 1)
+        self.run_program("draw", "scene.yaml", "-o", "scene.svg")
+
     def test_cloud_on_a_surface_near_it(self):
         """Points of a paraboloid, whose parameters come from a plane below and move to their feet: the sum of squares falls."""
         random = [((0.618033988749895 * k) % 1 * 4, (0.7548776662466927 * k) % 1 * 3) for k in range(1, 121)]

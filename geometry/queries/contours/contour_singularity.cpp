@@ -40,6 +40,7 @@ void move_below(const ContourEquations<4>& equations, int first, ParameterPoint<
       f[k] = there.value[k];
       for (int i = 0; i < 2; ++i) j(k, i) = there.derivative[k][first + i] * domain[first + i].width();
     }
+    if (!j.allFinite()) return;
     const VectorXd by = j.jacobiSvd(Eigen::ComputeThinU | Eigen::ComputeThinV).solve(-f);
     if (!by.allFinite()) return;
     for (int i = 0; i < 2; ++i)
@@ -63,6 +64,7 @@ ParameterPoint<N> singular_solution(const ContourEquations<N>& equations, const 
     MatrixXd j(M, N), a(N + 1, N);
     for (int k = 0; k < M; ++k)
       for (int i = 0; i < N; ++i) j(k, i) = there.derivative[k][i] * scale[i];
+    if (!j.allFinite()) break;  // the decomposition has no vectors
     const Eigen::JacobiSVD<MatrixXd> svd(j, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const VectorXd left = svd.matrixU().col(M - 1);
     VectorXd f(N + 1);
@@ -79,6 +81,7 @@ ParameterPoint<N> singular_solution(const ContourEquations<N>& equations, const 
         a(M + c, i) = left.dot(second_derivative<N>(equations, x, way, unit));
       }
     }
+    if (!a.allFinite()) break;
     const Eigen::JacobiSVD<MatrixXd> least(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const VectorXd by = least.solve(-f);
     double most = 0;
