@@ -107,6 +107,31 @@ class Bodies(ProgramTest):
             self.assert_near(found["volume"], area * abs(along[2]), 1e-12 * area)
             self.assertEqual(self.json_of("measure", "prism.yaml", "b", "--topology")["characteristics"][0]["faces"], count + 2)
 
+    def test_booleans_of_swept_bodies_that_share_surfaces(self):
+        """Of surfaces of revolution and extrusion with each other and with planes, cylinders, spheres and tori."""
+        self.write("shared.yaml", """lekalo: 1
+geometry:
+  section: { type: polyline, points: [[2, 0, 0], [3, 0, 0], [3, 0, 1], [2, 0, 1]], closed: true }
+  ring: { type: revolution_body, of: section }
+  plate: { type: box, center: [0, 0, 0.5], size: [8, 8, 1] }
+  core: { type: cylinder_body, radius: 2, height: 1 }
+  part: { type: revolution_body, of: section, angle: 200 }
+  other: { type: revolution_body, of: section, angle: 100, transform: { rotate: 150 } }
+  rod: { type: extrusion_body, of: { type: circle, radius: 1 }, along: [0, 0, 2] }
+  bolt: { type: cylinder_body, radius: 1, height: 3, center: [0, 0, -1] }
+  torus: { type: torus_body, major_radius: 2, minor_radius: 0.5 }
+  turned: { type: revolution_body, of: { type: circle, radius: 0.5, center: [2, 0, 0], normal: [0, -1, 0] } }
+  a: { type: difference, of: plate, minus: ring }
+  b: { type: union, of: [ring, core] }
+  c: { type: union, of: [part, other] }
+  d: { type: intersection, of: [rod, bolt] }
+  e: { type: union, of: [torus, turned] }
+""")
+        ring = 5 * math.pi
+        for name, volume in (("a", 64 - ring), ("b", 9 * math.pi), ("c", ring * 250 / 360), ("d", 2 * math.pi), ("e", math.pi**2)):
+            with self.subTest(name):
+                self.assert_near(self.json_of("measure", "shared.yaml", name)["volume"], volume, 1e-10)
+
     def test_exploded(self):
         self.write("apart.yaml", "lekalo: 1\ngeometry:\n  box: { type: box, size: [3, 2, 1] }\n"
                    "  apart: { type: exploded_body, of: box, distance: 0.5 }\n"

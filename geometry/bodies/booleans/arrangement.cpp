@@ -251,7 +251,8 @@ std::vector<PlaneRegion> regions_of(const std::vector<DirectedCurve>& curves, co
   return Arrangement(curves, surface).regions();
 }
 
-Vec2 point_inside(const std::vector<DirectedCurve>& curves, const PlaneRegion& region) {
+Vec2 point_inside(const std::vector<DirectedCurve>& curves, const PlaneRegion& region,
+                  const std::function<bool(const Vec2&)>& suits) {
   std::vector<std::vector<TrimRegion::Part>> parts_of_loops;
   for (const std::vector<int>& loop : region.loops) {
     parts_of_loops.emplace_back();
@@ -271,18 +272,19 @@ Vec2 point_inside(const std::vector<DirectedCurve>& curves, const PlaneRegion& r
       }
     }
     try {
-      double widest = 0;
-      Vec2 result(0);
+      std::vector<std::pair<double, Vec2>> centers;  // of the circles in the triangles, with their size
       for (const IndexTriangle& triangle : triangulate(points, polygons)) {
         const Vec2 a = points[triangle[0]], b = points[triangle[1]], c = points[triangle[2]];
         const double la = glm::length(b - c), lb = glm::length(c - a), lc = glm::length(a - b), around = la + lb + lc;
         const double area = std::abs((b - a).x * (c - a).y - (b - a).y * (c - a).x);
-        if (!(around > 0) || area / around <= widest) continue;
-        widest = area / around;
-        result = (la * a + lb * b + lc * c) / around;
+        if (area > 0) centers.emplace_back(area / around, (la * a + lb * b + lc * c) / around);
       }
-      // Where curves bend more than the polygons tell the point may be on the wrong side of them.
-      if (widest > 0 && trim.contains(result.x, result.y)) return result;
+      std::stable_sort(centers.begin(), centers.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+      for (const auto& [size, center] : centers) {
+        // Where curves bend more than the polygons tell the point may be on the wrong side of them.
+        if (!trim.contains(center.x, center.y)) break;
+        if (suits(center)) return center;
+      }
     } catch (const std::invalid_argument&) {
       // Polygons of neighbouring curves may cross where these do not.
     }
@@ -300,7 +302,9 @@ Vec2 point_inside(const std::vector<DirectedCurve>& curves, const PlaneRegion& r
           const double speed = glm::length(along);
           if (!(speed > 0)) continue;
           const Vec2 left(-along.y / speed, along.x / speed), p = Vec2(at.d[0]) + step * left;
-          if (trim.contains(p.x, p.y) && trim.contains(p.x + 0.5 * step * left.x, p.y + 0.5 * step * left.y)) return p;
+          if (trim.contains(p.x, p.y) && trim.contains(p.x + 0.5 * step * left.x, p.y + 0.5 * step * left.y) &&
+              suits(p))
+            return p;
         }
   throw std::invalid_argument("no point is found inside of a region of a face");
 }

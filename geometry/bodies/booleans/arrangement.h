@@ -1,6 +1,7 @@
 // The regions into which curves divide the parameter plane of a face (Golovanov 2016, 6.2: loops by the sharpest turn).
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "geometry/body.h"
@@ -27,7 +28,8 @@ struct PlaneRegion {
 // Every curve is in one region. `place` in space is for messages only. Throws BooleanError where a loop does not go on.
 std::vector<PlaneRegion> regions_of(const std::vector<DirectedCurve>& curves, const Surface& surface);
 
-// A point deep inside of a region.
-Vec2 point_inside(const std::vector<DirectedCurve>& curves, const PlaneRegion& region);
+// A point deep inside of a region, of those that suit.
+Vec2 point_inside(const std::vector<DirectedCurve>& curves, const PlaneRegion& region,
+                  const std::function<bool(const Vec2&)>& suits);
 
 }  // namespace lekalo::geometry

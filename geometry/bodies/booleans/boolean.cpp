@@ -75,18 +75,30 @@ class Boolean {
     for (size_t f = 0; f < own.faces.size(); ++f) {
       const SurfacePtr& surface = own.faces[f].surface;
       for (PlaneRegion& plane : regions_of(curves(side, static_cast<int>(f)), *surface)) {
-        const Vec2 uv = point_inside(curves(side, static_cast<int>(f)), plane);
-        const Vec3 p = surface->point(uv.x, uv.y);
-        Region region{static_cast<int>(f), std::move(plane), uv, p, Class::outside};
-        const auto on = on_coincident(side, region, trims);
-        region.where = on                    ? *on
-                       : open && side == 0   ? side_of_sheet(region)
-                       : is_inside(p, lines) ? Class::inside
-                                             : Class::outside;
+        Region region{static_cast<int>(f), std::move(plane), Vec2(0), Vec3(0), Class::outside};
+        const auto decide = [&](const Vec2& uv) {
+          region.place = uv, region.point = surface->point(uv.x, uv.y);
+          if (const auto on = on_coincident(side, region, trims))
+            region.where = *on;
+          else if (lies_on(region.point, lines))
+            return false;
+          else if (open && side == 0)
+            region.where = side_of_sheet(region);
+          else
+            region.where = is_inside(region.point, lines) ? Class::inside : Class::outside;
+          return true;
+        };
+        point_inside(curves(side, static_cast<int>(f)), region.plane, decide);
         regions_[side].push_back(std::move(region));
       }
     }
     check_neighbours(side);
+  }
+
+  // Where a face touches the other body along a line that does not divide it, points of that line tell nothing.
+  bool lies_on(const Vec3& p, const LineIntersector& other) const {
+    const Line line{p, glm::normalize(Vec3(0.3, 0.5, 0.8))};
+    return !other.all_hits(line, {-imprint_.tolerance, imprint_.tolerance}).empty();
   }
 
   std::optional<Class> on_coincident(int side, const Region& region,
@@ -95,6 +107,8 @@ class Boolean {
     for (const int g : imprint_.faces[side][region.face].coincident) {
       const Vec2 uv = parameters_on(other.faces[g].surface, region.point);
       if (!trims[g]) trims[g] = trim_by_loops(other, g);
+      // Not the nearest point of a border.
+      if (glm::length(other.faces[g].surface->point(uv.x, uv.y) - region.point) > 10 * imprint_.tolerance) continue;
       if (!trims[g]->contains(uv.x, uv.y)) continue;
       const Vec3 normal = own.normal(region.face, region.place.x, region.place.y);
       return glm::dot(normal, other.normal(g, uv.x, uv.y)) > 0 ? Class::same : Class::opposite;

@@ -27,6 +27,9 @@ namespace {
 constexpr double kSameNode = 1e-8;
 // Parts of the parameters of a face's border.
 constexpr double kOnBorder = 1e-9;
+// A share of its size that a contour is near enough to where it cannot be known better: beside a place where surfaces
+// touch.
+constexpr double kNearSingular = 1e-12;
 
 bool boxes_meet(const Box3& a, const Box3& b, double by) {
   for (int k = 0; k < 3; ++k)
@@ -469,7 +472,7 @@ class Imprinting {
 
   void split_contours() {
     for (const auto& [f, g, contour] : contours_) {
-      const CurvePtr curve = contour_approximation(contour.curve);
+      const CurvePtr curve = contour_approximation(contour.curve, kNearSingular);
       const NearCurve near(curve);
       // A point: the surfaces touch there.
       if (near.length() <= 8 * tolerance_) continue;
@@ -478,8 +481,8 @@ class Imprinting {
       for (size_t k = 0; k < imprint_.points.size(); ++k)
         if (const auto t = near.place_of(imprint_.points[k], tolerance_)) cuts.push_back({*t, static_cast<int>(k)});
       const std::array<Curve2Ptr, 2> images{
-          contour_approximation(contour.curve, *face(0, f).surface, contour.images[0]),
-          contour_approximation(contour.curve, *face(1, g).surface, contour.images[1])};
+          contour_approximation(contour.curve, *face(0, f).surface, contour.images[0], kNearSingular),
+          contour_approximation(contour.curve, *face(1, g).surface, contour.images[1], kNearSingular)};
       const double least = 2 * tolerance_ / near.length() * domain.width();
       const auto end_point = [&](double t) {
         for (const Cut& one : cuts)

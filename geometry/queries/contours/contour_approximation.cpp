@@ -40,12 +40,14 @@ CurvePtr contour_approximation(const CurvePtr& curve, double coarsest, double fi
   return simple ? simple : curve;
 }
 
-Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image,
-                                double tolerance) {
+Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image, double coarsest,
+                                double finest) {
   const Rectangle domain = surface.domain();
   const double size = std::max(domain.u.width(), domain.v.width());
   if (!takes_long(*curve) || !(size < kInfinity)) return image;
-  auto simple = polynomial_approximation(CurvePart(image, curve->domain()), tolerance * size);
+  const CurvePart part(image, curve->domain());
+  auto simple = polynomial_approximation(part, finest * size, coarsest > finest);
+  if (!simple && coarsest > finest) simple = polynomial_approximation(part, coarsest * size, true);
   return simple ? simple : image;
 }
 

@@ -14,6 +14,6 @@ CurvePtr contour_approximation(const CurvePtr& curve, double coarsest = 1e-13, d
 // The image of such a contour on a surface, likewise, in shares of the surface's domain; itself where that is
 // unbounded.
 Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image,
-                                double tolerance = 1e-13);
+                                double coarsest = 1e-13, double finest = 1e-13);
 
 }  // namespace lekalo::geometry

@@ -103,8 +103,8 @@ class Drawing {
                                                    [](const auto& one) { return one.surface->is_composed(); });
     const double tolerance = is_of_copy ? kNearContour : kExactContour;
     for (Stroke::SupportingSurface& supporting_surface : stroke.supporting_surfaces)
-      supporting_surface.image =
-          contour_approximation(stroke.curve, *supporting_surface.surface, supporting_surface.image, tolerance);
+      supporting_surface.image = contour_approximation(stroke.curve, *supporting_surface.surface,
+                                                       supporting_surface.image, tolerance, tolerance);
     stroke.curve = contour_approximation(stroke.curve, tolerance, tolerance);
   }
 

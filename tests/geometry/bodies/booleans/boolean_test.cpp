@@ -144,6 +144,13 @@ TEST(Boolean, TouchingAlongALine) {
   const Body inner = cylinder_body(at(0.5, 0, 0), 0.5, 2);
   EXPECT_NEAR(volume(boolean(kUnite, a, inner)), volume(a), 1e-9);
   EXPECT_NEAR(volume(boolean(kIntersect, a, inner)), volume(inner), 1e-9);
+  expect_volumes(box(at(-1, -1, 0), {2, 2, 2}), a, 2 * kPi);
+}
+
+// The section crosses itself where they touch; the volume beyond the plane by Simpson's rule.
+TEST(Boolean, TorusAndPlaneOfItsInnerEquator) {
+  const Body torus = torus_body(at(0, 0, 0), 2, 0.5), half = box(at(1.5, -3, -3), {6, 6, 6});
+  EXPECT_NEAR(volume(boolean(kUnite, torus, half)), 216 + 7.649430004267432, 1e-9);
 }
 
 TEST(Boolean, TouchingInAPoint) {
