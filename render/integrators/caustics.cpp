@@ -249,7 +249,7 @@ void PhotonTracer::follow(Ray ray, Spectrum power, int group, SampleStream& rand
       met.emplace(world_, ray, hit, wavelengths, media);
     }
     const Boundary& seen = *met;
-    power *= transmittance(media.current().absorption, hit.t);
+    power *= transmittance(media.current().extinction(), hit.t);
     const Scattering scattering = seen.material->scattering(seen.point, kPrimaries);
     if (!seen.changes_filling || scattering.catches_shadows) {
       media = seen.behind;

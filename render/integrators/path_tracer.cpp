@@ -92,7 +92,8 @@ class PathTracer {
   // Where the ray was drawn: what lamps would have been asked there.
   struct Origin {
     bool eye = true;
-    bool sharp = true;  // by a mirror or a smooth boundary: no lamp could have been
+    bool sharp = true;      // by a mirror or a smooth boundary: no lamp could have been
+    bool gathered = false;  // the last place that spread the path has counted its photons: a surface, no substance
     Vec3 point{0};
     double density = 0;           // of the direction
     double gone = 0;              // way to the present ray's origin
@@ -191,7 +192,7 @@ void PathTracer::add_lamps_along(const Ray& ray, double end, const Medium& mediu
   const std::vector<LightPtr>& lamps = world_.lamps();
   for (size_t i = 0; i < lamps.size(); ++i) {
     if (origin_.eye && !lamps[i]->is_backdrop()) continue;
-    if (caustics_ && !shown_ && origin_.sharp && caustics_->of_lamp[i]) continue;  // photons have brought it
+    if (origin_.gathered && origin_.sharp && caustics_->of_lamp[i]) continue;  // photons have brought it
     const std::optional<LightSample> lamp = lamps[i]->towards(origin_.point, ray.direction);
     if (!lamp || lamp->irradiance.is_zero()) continue;
     // Without shadows the light arrives through everything, but what is seen, itself or in a mirror, still lies before
@@ -405,6 +406,7 @@ bool PathTracer::is_scattered(Ray& ray, double end, const Medium& medium, const 
   shown_ = false;
   origin_.eye = false;
   origin_.sharp = !asks;
+  origin_.gathered = false;
   origin_.point = at;
   origin_.density = phase(glm::dot(direction, ray.direction), medium.forward);
   origin_.gone = 0;
@@ -519,6 +521,7 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
       shown_ = shown_ && next->sharp;
       origin_.eye = false;
       origin_.sharp = next->sharp;
+      if (!next->sharp) origin_.gathered = caustics_ != nullptr;
       origin_.point = seen.point.position;
       origin_.density = next->density;
       origin_.gone = 0;

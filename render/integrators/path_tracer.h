@@ -16,7 +16,9 @@
 //
 // With photons (caustics.h), whatever comes before, and + for one and more:
 //
-//   any path with D S+ L, D S+ P at its end   the photons
+//   any path with D S+ L, D S+ P at its end   the photons, D being a surface
+//   any path with M S+ L at its end           the drawn direction, M a scattering in a substance: photons never land
+//                                             there
 //   paths S+ L alone                          the drawn direction: lamps seen in mirrors
 //   paths S+ P alone                          nothing: a point has no picture
 //   any path that ends D S+ E, D S+ sky       the drawn direction

@@ -2,6 +2,7 @@
 
 import unittest
 
+from exr import read_exr
 from program import ProgramTest
 
 SCENE = """lekalo: 1
@@ -115,6 +116,28 @@ image: {{ size: [8, 8], samples: 4, background: [0.3, 0.5, 0.7] }}
         self.assertIn("a substance behind them", self.complaint(other="{ type: mix, first: glass, second: { type: dielectric } }"))
         self.assertIn("roughness", self.complaint(other="{ type: plastic, roughness: 2 }"))
         self.assertIn("anisotropy", self.complaint(other="{ type: conductor, metal: Cu, anisotropy: 1 }"))
+
+    def mean(self, name, layer="G"):
+        plane = read_exr(self.bytes_of(name))[1][layer]
+        return sum(plane) / len(plane)
+
+    def test_milk_is_the_same_with_photons(self):
+        """They do not scatter, and bring nothing of the light that milk lets through."""
+        for photons in 0, 20000:
+            self.write("scene.yaml", f"""lekalo: 1
+geometry: {{ floor: {{ type: plane, size: [6, 6] }}, b: {{ type: ball, radius: 1, center: [0, 0, 1.2] }} }}
+objects:
+  - {{ shape: floor, material: {{ type: diffuse, color: 0.5 }} }}
+  - {{ shape: b, material: {{ type: dielectric, index: 1.5, scattering: 8 }} }}
+lights: {{ l: {{ type: sphere_light, radius: 1.5, center: [0, -3, 6], intensity: 40, decay: inverse_square }} }}
+camera: {{ type: perspective, from: [0, -8, 5], at: [0, 0, 0.7], field_of_view: 40 }}
+integrator: {{ type: path, photons: {photons} }}
+image: {{ size: [24, 16], samples: 256, background: black, layers: [color, transmission] }}
+""")
+            self.run_program("render", "scene.yaml", "-o", f"{photons}.exr", "--quiet")
+        for layer in "transmission.G", "G":
+            found, expected = self.mean("20000.exr", layer), self.mean("0.exr", layer)
+            self.assert_near(found, expected, 0.1 * expected)
 
     def test_endless_mirrors_send_no_photons(self):
         """It is said, and not where the mirror has a size."""
