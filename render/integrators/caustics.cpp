@@ -159,6 +159,16 @@ bool sends_photons(const Light& lamp) {
   return lamp.casts_shadows() && !std::any_cast<EnvironmentLight>(&made);
 }
 
+// The laws of lamps by distance: true where they give the same light at all of them.
+template <class... Lamps>
+bool is_even(const std::any& made) {
+  const auto says_so = [](const auto* light) { return light && !light->lamp.inverse_square; };
+  return (says_so(std::any_cast<Lamps>(&made)) || ...);
+}
+bool is_even(const Light& lamp) {
+  return is_even<PointLight, SpotLight, RectangleLight, DiscLight, SphereLight, ProfileLight>(lamp.made_from());
+}
+
 // What a photon may begin with.
 struct Start {
   size_t lamp, ball;
@@ -193,7 +203,9 @@ class PhotonTracer {
   void trace(uint32_t number, std::vector<Photon>& landed) const;
 
  private:
-  void follow(Ray ray, Spectrum power, int group, SampleStream& random, std::vector<Photon>& landed) const;
+  // `even_from`: the way after which the power holds of a lamp whose light does not fall off; 0: it does.
+  void follow(Ray ray, Spectrum power, double even_from, int group, SampleStream& random,
+              std::vector<Photon>& landed) const;
 
   const World& world_;
   const CausticOptions& options_;
@@ -208,10 +220,11 @@ void PhotonTracer::trace(uint32_t number, std::vector<Photon>& landed) const {
   size_t s = 0;
   while (s + 1 < starts_.size() && place >= starts_[s].probability) place -= starts_[s++].probability;
   const Ball& ball = balls_[starts_[s].ball];
-  const Target target(ball, *world_.lamps()[starts_[s].lamp]);
+  const Light& lamp = *world_.lamps()[starts_[s].lamp];
+  const Target target(ball, lamp);
   const Vec3 outward = target.sample(choice.y, on_ball);
   const Vec3 point = ball.center + ball.radius * outward;
-  const LightSample light = world_.lamps()[starts_[s].lamp]->sample_all(point, on_lamp);
+  const LightSample light = lamp.sample_all(point, on_lamp);
   if (light.irradiance.is_zero() || !light.irradiance.is_finite()) return;
   const bool far = !std::isfinite(light.distance);
   // Of what comes from far away nothing lies before the scene.
@@ -226,15 +239,18 @@ void PhotonTracer::trace(uint32_t number, std::vector<Photon>& landed) const {
   for (size_t k = 0; k < starts_[s].ball; ++k)
     if (balls_[k].meets(ray)) return;
   const auto share = static_cast<float>(cosine / (target.density(outward) * starts_[s].probability * options_.photons));
-  follow(ray, share * light.irradiance, world_.lamp_groups()[starts_[s].lamp], random, landed);
+  const double even_from = !far && is_even(lamp) ? light.distance : 0;
+  follow(ray, share * light.irradiance, even_from, world_.lamp_groups()[starts_[s].lamp], random, landed);
 }
 
-void PhotonTracer::follow(Ray ray, Spectrum power, int group, SampleStream& random, std::vector<Photon>& landed) const {
+void PhotonTracer::follow(Ray ray, Spectrum power, double even_from, int group, SampleStream& random,
+                          std::vector<Photon>& landed) const {
   Media media = media_at_origin(world_, ray, kYellow);
   Wavelengths wavelengths = kYellow;
   const float begun = power.largest();
   bool one_wavelength = false;
   int bounces = 0;
+  double way = 0;
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     Hit hit;
     if (!world_.nearest(ray, hit)) return;
@@ -250,6 +266,7 @@ void PhotonTracer::follow(Ray ray, Spectrum power, int group, SampleStream& rand
     }
     const Boundary& seen = *met;
     power *= transmittance(media.current().extinction(), hit.t);
+    way += hit.t;
     const Scattering scattering = seen.material->scattering(seen.point, kPrimaries);
     if (!seen.changes_filling || scattering.catches_shadows) {
       media = seen.behind;
@@ -261,8 +278,11 @@ void PhotonTracer::follow(Ray ray, Spectrum power, int group, SampleStream& rand
     const Bsdf bsdf(scattering, seen.shading_normal(ray.direction), seen.geometric_normal(), seen.point.du,
                     -ray.direction, sides);
     if (bsdf.is_black()) return;
-    if (bounces > 0 && bsdf.has_spread())
-      landed.push_back({seen.point.position, -ray.direction, seen.geometric_normal(), power, group});
+    if (bounces > 0 && bsdf.has_spread()) {
+      const double spread = even_from > 0 ? way / even_from : 1;  // photons thin out as the square of it
+      landed.push_back({seen.point.position, -ray.direction, seen.geometric_normal(),
+                        static_cast<float>(spread * spread) * power, group});
+    }
     const Vec2 choice = random.next_sobol_pair(), square = random.next_sobol_pair();
     const std::optional<BsdfSample> next = bsdf.sample(choice, square);
     if (!next || !next->sharp) return;  // what goes on spread is the business of paths from the eye

@@ -33,7 +33,8 @@ struct Caustics {
 // arrive at the ball's surface at the angle a have the flux E cos(a) / p, p the density of their places, shared among
 // all that are sent; of photons that come from within the ball those are taken that leave it. So every lamp can send
 // photons, and none are sent where nothing throws them. A ray that meets several balls belongs to the first of their
-// list.
+// list. Photons thin out as the square of their way; of lamps whose light does not fall off (decay: none) they gain as
+// much, so that a thin pane or a plane mirror leaves the light as it would be without it.
 std::shared_ptr<const Caustics> trace_caustics(const World& world, const CausticOptions& options);
 
 }  // namespace lekalo::render

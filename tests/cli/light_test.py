@@ -139,6 +139,25 @@ image: {{ size: [24, 16], samples: 256, background: black, layers: [color, trans
             found, expected = self.mean("20000.exr", layer), self.mean("0.exr", layer)
             self.assert_near(found, expected, 0.1 * expected)
 
+    def test_light_that_does_not_fall_off_passes_panes(self):
+        """The same behind panes of all sizes, but for what their faces throw back."""
+        for side in 0, 2, 8, 60:
+            pane = f"[{{ shape: {{ type: box, size: [{side}, {side}, 0.01], center: [0, 0, 4] }}, material: {{ type: dielectric }} }}]"
+            self.write("scene.yaml", f"""lekalo: 1
+geometry: {{ floor: {{ type: plane, size: [1, 1] }} }}
+objects:
+  - {{ shape: floor, material: {{ type: diffuse, color: 0.5 }} }}
+{"  - " + pane[1:-1] if side else ""}
+lights: {{ l: {{ type: point_light, position: [0, 0, 5] }} }}
+camera: {{ type: parallel, view: top, at: [0, 0, 0], width: 0.8 }}
+integrator: {{ type: path, photons: 100000 }}
+image: {{ size: [8, 8], samples: 4, background: black, layers: [color] }}
+""")
+            self.run_program("render", "scene.yaml", "-o", f"{side}.exr", "--quiet")
+        expected = self.mean("0.exr") * (1 - 0.04) / (1 + 0.04)
+        for side in 2, 8, 60:
+            self.assert_near(self.mean(f"{side}.exr"), expected, 0.1 * expected)
+
     def test_endless_mirrors_send_no_photons(self):
         """It is said, and not where the mirror has a size."""
         for plane, told in (("origin: [0, 0, 0]", True), ("origin: [0, 0, 0], size: [9, 9]", False)):
