@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "render/integrators/boundary.h"
 #include "render/integrators/dispersion.h"
@@ -130,6 +131,31 @@ class Target {
   double height_ = 2;              // 1 - the cosine of half the cone in which the place sees the ball
 };
 
+// Around what throws light. Groups are asked once each: they may place more than can be visited.
+class ThrownBox {
+ public:
+  geometry::Box3 of(const std::vector<Object>& objects) {
+    geometry::Box3 box;
+    for (const Object& object : objects) {
+      const auto* group = std::get_if<GroupPtr>(&object.shape);
+      const geometry::Box3 own = group ? of(**group) : thrown_by(object) > 0 ? bounds(object.shape) : geometry::Box3();
+      if (!own.empty()) box.include(transformed(own, object.transform));
+    }
+    return box;
+  }
+
+ private:
+  geometry::Box3 of(const Group& group) {
+    const auto known = of_groups_.find(&group);
+    if (known != of_groups_.end()) return known->second;
+    const geometry::Box3 box = of(group.objects);
+    of_groups_.emplace(&group, box);
+    return box;
+  }
+
+  std::unordered_map<const Group*, geometry::Box3> of_groups_;
+};
+
 // None at all where something without bounds throws light.
 std::vector<Ball> balls_of(const World& world) {
   const PlacedObjects placed(world.model().objects, [](const Object& object) { return thrown_by(object) > 0; });
@@ -142,9 +168,7 @@ std::vector<Ball> balls_of(const World& world) {
     balls.push_back({0.5 * (box.lo + box.hi), std::max(0.5 * box.diameter(), 1e-300) * (1 + 1e-6), thrown});
   };
   if (shared) {
-    geometry::Box3 box;
-    for (const Object& object : world.model().objects) box.include(transformed(bounds(object.shape), object.transform));
-    add(box, 1);
+    add(ThrownBox().of(world.model().objects), 1);
   } else {
     placed.visit([&](const Object& object, const geometry::Affine& to_world, int) {
       add(transformed(bounds(object.shape), to_world), thrown_by(object));

@@ -158,6 +158,24 @@ image: {{ size: [8, 8], samples: 4, background: black, layers: [color] }}
         for side in 2, 8, 60:
             self.assert_near(self.mean(f"{side}.exr"), expected, 0.1 * expected)
 
+    def test_many_clear_balls_over_an_endless_floor(self):
+        """More than have photons of their own."""
+        balls = "".join(f"  - {{ shape: b, material: g, transform: [{{ translate: [{i % 9 - 4}, {i // 9 - 4}, 0] }}] }}\n"
+                        for i in range(81))
+        for photons in 0, 50000:
+            self.write("scene.yaml", f"""lekalo: 1
+geometry: {{ floor: {{ type: plane }}, b: {{ type: ball, radius: 0.3, center: [0, 0, 0.5] }} }}
+materials: {{ g: {{ type: dielectric, index: 1.5 }} }}
+lights: {{ l: {{ type: distant_light, direction: [0.3, 0, -1] }} }}
+camera: {{ type: perspective, from: [0, -8, 5], at: [0, 0, 0], field_of_view: 40 }}
+integrator: {{ type: path, photons: {photons} }}
+image: {{ size: [24, 16], samples: 16, background: black, layers: [color] }}
+objects:
+  - {{ shape: floor, material: {{ type: diffuse, color: 0.5 }} }}
+{balls}""")
+            self.run_program("render", "scene.yaml", "-o", f"{photons}.exr", "--quiet")
+        self.assertGreater(self.mean("50000.exr"), 1.1 * self.mean("0.exr"))
+
     def test_endless_mirrors_send_no_photons(self):
         """It is said, and not where the mirror has a size."""
         for plane, told in (("origin: [0, 0, 0]", True), ("origin: [0, 0, 0], size: [9, 9]", False)):
