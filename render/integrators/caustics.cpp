@@ -43,25 +43,65 @@ double thrown_by(const Lobe& lobe, const Sides& sides) {
   return 0;
 }
 
-double thrown_by(const Material& material) {
+// Places of a shape as textures look at them: all over its parameters, or its box. Where the ranges of parameters are
+// not known, some are in the unit square and some as far apart as the shape is wide.
+std::vector<SurfacePoint> places_on(const Entity& shape) {
+  constexpr int kPlaces = 128;
+  geometry::Box3 box = bounds(shape);
+  if (box.empty() || !box.bounded()) box = {Vec3(-10), Vec3(10)};
+  geometry::Box3 uv;
+  const auto include = [&](const geometry::Surface& surface) {
+    const geometry::Rectangle domain = surface.domain();
+    uv.include({domain.u.lo, domain.v.lo, 0});
+    uv.include({domain.u.hi, domain.v.hi, 0});
+  };
+  if (const auto* surface = std::get_if<geometry::SurfacePtr>(&shape)) include(**surface);
+  if (const auto* set = std::get_if<SurfaceSet>(&shape))
+    for (const geometry::SurfacePtr& surface : *set) include(*surface);
+  if (const auto* body = std::get_if<geometry::BodyPtr>(&shape))
+    for (const geometry::Body::Face& face : (*body)->faces) include(*face.surface);
+  if (const auto* mesh = std::get_if<geometry::MeshPtr>(&shape))
+    for (const Vec2& place : (*mesh)->parameters) uv.include(Vec3(place, 0));
+  const bool known = !uv.empty() && uv.bounded();
+  const double half = 0.5 * box.diameter();
+  std::vector<SurfacePoint> places(kPlaces);
+  for (int i = 0; i < kPlaces; ++i) {
+    const geometry::Box3 range = known        ? uv
+                                 : i % 2 == 0 ? geometry::Box3{Vec3(0), Vec3(1)}
+                                              : geometry::Box3{Vec3(-half), Vec3(half)};
+    // Evenly, by the powers of the inverse of the root of x^4 = x + 1.
+    const Vec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
+    const Vec3 share = glm::fract(0.5 + i * step), at = range.lo + share * range.size();
+    places[static_cast<size_t>(i)].u = at.x, places[static_cast<size_t>(i)].v = at.y;
+    places[static_cast<size_t>(i)].position = places[static_cast<size_t>(i)].smooth_position =
+        box.lo + share * box.size();
+  }
+  return places;
+}
+
+double thrown_by(const Material& material, const SurfacePoint& place) {
   const auto medium = material.interior(Wavelengths{});
   const Sides sides{1, medium ? medium->index : 1.0};
-  const int places = material.uses_parameters() ? 5 : 1;  // each way
+  const Scattering scattering = material.scattering(place, Wavelengths{});
   double most = 0;
-  for (int i = 0; i < places * places; ++i) {
-    SurfacePoint point;
-    point.u = (i % places) / 4.0, point.v = (i / places) / 4.0;
-    point.position = point.smooth_position = Vec3(point.u, point.v, 0);
-    const Scattering scattering = material.scattering(point, Wavelengths{});
-    for (const WeightedLobe& part : scattering.lobes) most = std::max(most, thrown_by(part.lobe, sides));
-  }
+  for (const WeightedLobe& part : scattering.lobes)
+    if (!part.weight.is_zero()) most = std::max(most, thrown_by(part.lobe, sides));
   return most;
 }
 
 double thrown_by(const Object& object) {
   double most = 0;
-  for (const Material* material : {object.material.get(), object.back_material.get()})
-    if (material) most = std::max(most, thrown_by(*material));
+  for (const Material* material : {object.material.get(), object.back_material.get()}) {
+    if (!material) continue;
+    if (!material->uses_parameters()) {
+      most = std::max(most, thrown_by(*material, {}));
+      continue;
+    }
+    for (const SurfacePoint& place : places_on(object.shape)) {
+      if (most >= 1) break;
+      most = std::max(most, thrown_by(*material, place));
+    }
+  }
   return most;
 }
 
@@ -333,7 +373,7 @@ void PhotonTracer::follow(Ray ray, Spectrum power, double even_from, int group, 
 
 }  // namespace
 
-bool throws_caustics(const Material& material) { return thrown_by(material) > 0; }
+bool throws_caustics(const Object& object) { return thrown_by(object) > 0; }
 
 std::shared_ptr<const Caustics> trace_caustics(const World& world, const CausticOptions& options) {
   const PhotonTracer tracer(world, options);

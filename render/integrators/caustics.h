@@ -15,9 +15,9 @@ struct CausticOptions {
   bool dispersion = false;  // as PathOptions
 };
 
-// Whether mirrors or smooth boundaries of the material may throw light in one direction. Of a textured one some places
-// are asked.
-bool throws_caustics(const Material& material);
+// Whether mirrors or smooth boundaries of the object, which is no group, may throw light in one direction. Of a
+// textured one some places are asked.
+bool throws_caustics(const Object& object);
 
 struct Caustics {
   PhotonMap photons;

@@ -48,8 +48,7 @@ bool misses_light(const Model& model) {
   if (!has_points) return false;
   bool found = false;
   each_object(model.objects, [&](const Object& object) {
-    for (const Material* material : {object.material.get(), object.back_material.get()})
-      found = found || (material && throws_caustics(*material));
+    found = found || (!std::holds_alternative<GroupPtr>(object.shape) && throws_caustics(object));
   });
   return found;
 }
@@ -59,9 +58,9 @@ std::string without_photons(const Model& model) {
   int number = 0;
   each_object(model.objects, [&](const Object& object) {
     ++number;
-    for (const Material* material : {object.material.get(), object.back_material.get()})
-      if (found.empty() && material && throws_caustics(*material) && !bounds(object.shape).bounded())
-        found = object.name.empty() ? "object " + std::to_string(number) : object.name;
+    if (found.empty() && !std::holds_alternative<GroupPtr>(object.shape) && !bounds(object.shape).bounded() &&
+        throws_caustics(object))
+      found = object.name.empty() ? "object " + std::to_string(number) : object.name;
   });
   return found;
 }

@@ -176,6 +176,22 @@ objects:
             self.run_program("render", "scene.yaml", "-o", f"{photons}.exr", "--quiet")
         self.assertGreater(self.mean("50000.exr"), 1.1 * self.mean("0.exr"))
 
+    def test_mirrors_found_in_a_texture(self):
+        """The caustic of a wall that is a mirror in some places, and is rough in its middle."""
+        for photons in 0, 20000:
+            self.write("scene.yaml", f"""lekalo: 1
+geometry: {{ floor: {{ type: plane, size: [6, 6] }}, wall: {{ type: plane, size: [6, 6], frame: {{ origin: [3, 0, 3], z: -x }} }} }}
+materials:
+  silver: {{ type: conductor, metal: Ag, roughness: {{ type: checker, spacing: 2, offset: -1, color: 0.5, background: 0 }} }}
+lights: {{ l: {{ type: distant_light, direction: [1, 0, -1] }} }}
+camera: {{ type: parallel, view: top, at: [0, 0, 0], width: 4 }}
+integrator: {{ type: path, photons: {photons} }}
+image: {{ size: [8, 8], samples: 16, background: black, layers: [color] }}
+objects: [{{ shape: floor, material: {{ type: diffuse, color: 0.5 }} }}, {{ shape: wall, material: silver }}]
+""")
+            self.run_program("render", "scene.yaml", "-o", f"{photons}.exr", "--quiet")
+        self.assertGreater(self.mean("20000.exr"), 1.2 * self.mean("0.exr"))
+
     def test_endless_mirrors_send_no_photons(self):
         """It is said, and not where the mirror has a size."""
         for plane, told in (("origin: [0, 0, 0]", True), ("origin: [0, 0, 0], size: [9, 9]", False)):
