@@ -65,7 +65,7 @@ class Pictures {
   explicit Pictures(fs::path folder) : folder_(std::move(folder)) {}
 
   Image read(const ModelPicture& picture, SampleEncoding encoding) {
-    const auto key = std::pair(picture.file + picture.bytes.substr(0, 4096), encoding);
+    const auto key = std::pair(picture.bytes.empty() ? picture.file : picture.bytes, encoding);
     const auto found = images_.find(key);
     return found != images_.end() ? found->second : images_[key] = image(picture, encoding);
   }

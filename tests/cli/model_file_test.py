@@ -5,7 +5,8 @@ import json
 import struct
 import unittest
 
-from optics_input_test import png
+from exr import read_exr
+from optics_input_test import chunk, png
 from program import ProgramTest
 
 SCENE = """lekalo: 1
@@ -88,6 +89,21 @@ objects: [{{ shape: a, material: {matter} }}, {{ shape: b, material: {matter} }}
         self.same("""geometry: { a: { type: plane, size: [2, 2], frame: { x: x, z: -y } } }
 materials: { it: { type: principled, specular_roughness: 1, base_color: { type: image, file: colors.png, spacing: 2, offset: -1, interpolation: filtered } } }
 objects: [{ shape: a, material: it }]""")
+
+    def test_pictures_that_begin_alike(self):
+        """Two of them, of the same first 5000 bytes."""
+        red, green = png(1, 1, 8, [[255, 0, 0]]), png(1, 1, 8, [[0, 255, 0]])
+        red, green = (p[:33] + chunk(b"tEXt", b"c\0" + 5000 * b" ") + p[33:] for p in (red, green))
+        two = json.loads(gltf([{"mesh": 0, "translation": [-1, 0, 0]}, {"mesh": 1, "translation": [1, 0, 0]}],
+                              matt(baseColorTexture={"index": 0}), [red, green]))
+        two["materials"].append(matt(baseColorTexture={"index": 1}))
+        two["meshes"].append(json.loads(json.dumps(two["meshes"][0])))
+        two["meshes"][1]["primitives"][0]["material"] = 1
+        self.write("two.gltf", json.dumps(two))
+        self.render("two.gltf")
+        planes = read_exr(self.bytes_of("picture.exr"))[1]
+        for lane, other in ("R", "G"), ("G", "R"):
+            self.assertGreater(sum(a > 0.3 > b for a, b in zip(planes[lane], planes[other])), 100)
 
     def test_obj_with_its_library(self):
         self.write("part.mtl", "newmtl red\nKd 0.7 0.1 0.05\nNs 0\nillum 2\n")
