@@ -55,7 +55,8 @@ void describe_cryptomatte(Image& image, const std::string& layer, const std::vec
   image.metadata[key + "name"] = layer;
   image.metadata[key + "hash"] = "MurmurHash3_32";
   image.metadata[key + "conversion"] = "uint32_to_float32";
-  image.metadata[key + "manifest"] = manifest.dump();
+  // Names of model files may be in another encoding than UTF-8.
+  image.metadata[key + "manifest"] = manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 void MatteCount::add(float number) {

@@ -68,6 +68,15 @@ class Layers(ProgramTest):
                 self.assertGreater(agree, 48 * 32 - 20)
                 self.assert_near(sum(mattes["pearl"]), planes["id.object"].count(1), 15)
 
+    def test_cryptomatte_of_names_in_another_encoding(self):
+        (self.folder / "old.obj").write_bytes(b"o W\xfcrfel\nv -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.write("scene.yaml", "lekalo: 1\nobjects: [{ shape: { type: model, file: old.obj } }]\nintegrator: { type: path }\n"
+                   "image: { size: [8, 8], samples: 1, layers: [color, cryptomatte_object] }\n")
+        self.run_program("render", "scene.yaml", "-o", "old.exr", "--quiet")
+        attributes, _ = read_exr(self.bytes_of("old.exr"))
+        manifest = next(v for n, (_, v) in attributes.items() if n.endswith("/manifest"))
+        self.assertIn("W\ufffdrfel", json.loads(manifest))
+
     def test_noise_target(self):
         _, planes = self.render("noise: 0.02, layers: [color, samples]")
         self.assertEqual(set(planes["samples"]), {16})
