@@ -59,7 +59,7 @@ std::vector<SurfacePoint> places_on(const Entity& shape) {
   if (const auto* set = std::get_if<SurfaceSet>(&shape))
     for (const geometry::SurfacePtr& surface : *set) include(*surface);
   if (const auto* body = std::get_if<geometry::BodyPtr>(&shape))
-    for (const geometry::Body::Face& face : (*body)->faces) include(*face.surface);
+    for (const auto& face : (*body)->faces) include(*face.surface);
   if (const auto* mesh = std::get_if<geometry::MeshPtr>(&shape))
     for (const Vec2& place : (*mesh)->parameters) uv.include(Vec3(place, 0));
   const bool known = !uv.empty() && uv.bounded();
@@ -71,7 +71,7 @@ std::vector<SurfacePoint> places_on(const Entity& shape) {
                                               : geometry::Box3{Vec3(-half), Vec3(half)};
     // Evenly, by the powers of the inverse of the root of x^4 = x + 1.
     const Vec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
-    const Vec3 share = glm::fract(0.5 + i * step), at = range.lo + share * range.size();
+    const Vec3 share = glm::fract(0.5 + static_cast<double>(i) * step), at = range.lo + share * range.size();
     places[static_cast<size_t>(i)].u = at.x, places[static_cast<size_t>(i)].v = at.y;
     places[static_cast<size_t>(i)].position = places[static_cast<size_t>(i)].smooth_position =
         box.lo + share * box.size();
