@@ -29,7 +29,7 @@ class MixedMaterial final : public Material {
   }
 
   Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
-    const Spectrum share = mix_.share.at(point);
+    const Spectrum share = mix_.share.share_at(point);
     const Scattering first = mix_.first->scattering(point, wavelengths);
     const Scattering second = mix_.second->scattering(point, wavelengths);
     Scattering s;

@@ -68,8 +68,7 @@ class DetailedMaterial final : public Material {
   Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
     const Scattering plain = plain_->scattering(point, wavelengths);
     if (!detail_.has_holes) return plain;
-    Spectrum opacity = detail_.opacity.at(point);
-    for (int i = 0; i < 3; ++i) opacity.set(i, std::clamp(opacity[i], 0.0f, 1.0f));
+    const Spectrum opacity = detail_.opacity.share_at(point);
     Scattering s = plain;
     s.lobes = {};
     // Light goes straight through the holes. They count as a lobe (LobeList::kMost) where there are none, too.

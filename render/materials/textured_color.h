@@ -1,6 +1,7 @@
 // A colour of a material or texture: the same everywhere, or from a texture.
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 
 #include "geometry/describe.h"
@@ -15,6 +16,12 @@ class TexturedColor {
   TexturedColor(TexturePtr texture) : texture_(std::move(texture)) {}
 
   Spectrum at(const SurfacePoint& point) const { return texture_ ? texture_->at(point) : constant_; }
+  // Each lane between 0 and 1, whatever a picture holds: for shares of two things.
+  Spectrum share_at(const SurfacePoint& point) const {
+    const Spectrum s = at(point);
+    const auto share = [&](int lane) { return std::clamp(s[lane], 0.0f, 1.0f); };
+    return {share(0), share(1), share(2), share(3)};
+  }
   uint64_t cell(const SurfacePoint& point) const { return texture_ ? texture_->cell(point) : 0; }
   const TexturePtr& texture() const { return texture_; }
   bool is_black() const { return !texture_ && constant_.is_zero(); }

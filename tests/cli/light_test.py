@@ -117,6 +117,17 @@ image: {{ size: [8, 8], samples: 4, background: [0.3, 0.5, 0.7] }}
         self.assertIn("roughness", self.complaint(other="{ type: plastic, roughness: 2 }"))
         self.assertIn("anisotropy", self.complaint(other="{ type: conductor, metal: Cu, anisotropy: 1 }"))
 
+    def test_shares_of_a_mix_that_are_none(self):
+        """A texture of 3 is all of the second, and takes no light from the first."""
+        for share in 1, 3:
+            self.scene(other=MATT)
+            red = "{ type: mix, first: { type: diffuse, color: 0.9 }, second: { type: diffuse, color: [0.2, 0.2, 0.8] }, " \
+                  f"share: {{ type: checker, color: {share}, background: {share} }} }}"
+            scene = (self.folder / "scene.yaml").read_text()
+            self.write("scene.yaml", scene.replace("{ type: plastic, color: [0.7, 0.1, 0.1] }", red))
+            self.run_program("render", "scene.yaml", "-o", f"{share}.exr", "--quiet")
+        self.run_program("compare", "1.exr", "3.exr", "--metric", "max", "--threshold", "1e-6")
+
     def mean(self, name, layer="G"):
         plane = read_exr(self.bytes_of(name))[1][layer]
         return sum(plane) / len(plane)
