@@ -36,10 +36,16 @@ bool spreads(const Lobe& lobe, const Sides& sides) {
   return !std::holds_alternative<BoundaryLobe>(lobe);
 }
 
-bool is_matt(const Lobe& lobe) {
-  return std::holds_alternative<LambertLobe>(lobe) || std::holds_alternative<RoughMattLobe>(lobe) ||
-         std::holds_alternative<SheetLobe>(lobe) || std::holds_alternative<CoatedMattLobe>(lobe) ||
-         std::holds_alternative<SheenLobe>(lobe);
+Spectrum evaluate_lobe(const Lobe& lobe, const Vec3& out, const Vec3& in, const Sides& sides) {
+  return std::visit([&](const auto& kind) { return kind.evaluate(out, in, sides); }, lobe);
+}
+
+// What matt bodies and nap send on of it, not the coat over them.
+Spectrum evaluate_matt(const Lobe& lobe, const Vec3& out, const Vec3& in, const Sides& sides) {
+  if (const auto* coated = std::get_if<CoatedMattLobe>(&lobe)) return coated->evaluate_body(out, in);
+  const bool is_matt = std::holds_alternative<LambertLobe>(lobe) || std::holds_alternative<RoughMattLobe>(lobe) ||
+                       std::holds_alternative<SheetLobe>(lobe) || std::holds_alternative<SheenLobe>(lobe);
+  return is_matt ? evaluate_lobe(lobe, out, in, sides) : Spectrum();
 }
 
 // What the lobes are multiplied with so that they send back no more than what falls on them.
@@ -69,27 +75,23 @@ bool Bsdf::has_spread() const {
                      [&](const WeightedLobe& part) { return spreads(part.lobe, sides_); });
 }
 
-// Of the lobes that `counts` says so of.
-template <class Counts>
-Spectrum Bsdf::sum_over(const Vec3& in, const Counts& counts) const {
+// Of what `evaluate` says of each lobe.
+template <class Evaluate>
+Spectrum Bsdf::sum_over(const Vec3& in, const Evaluate& evaluate) const {
   const Vec3 local_in = frame_.to_local_direction(in);
   Spectrum sum;
   if (!is_possible(in, local_in)) return sum;
   for (const WeightedLobe& part : scattering_.lobes) {
-    if (!counts(part.lobe)) continue;
-    const Spectrum value =
-        std::visit([&](const auto& lobe) { return lobe.evaluate(out_, local_in, sides_); }, part.lobe);
+    const Spectrum value = evaluate(part.lobe, out_, local_in, sides_);
     if (!value.is_zero()) sum += (scale_ * part.passes(out_, local_in)) * (part.weight * value);
   }
   return sum;
 }
 
-Spectrum Bsdf::evaluate(const Vec3& in) const {
-  return sum_over(in, [](const Lobe&) { return true; });
-}
+Spectrum Bsdf::evaluate(const Vec3& in) const { return sum_over(in, evaluate_lobe); }
 
 Spectrum Bsdf::matt_share(const Vec3& in) const {
-  const Spectrum all = evaluate(in), matt = sum_over(in, is_matt);
+  const Spectrum all = evaluate(in), matt = sum_over(in, evaluate_matt);
   Spectrum share;
   for (int i = 0; i < 3; ++i)
     if (all[i] > 0) share.set(i, matt[i] / all[i]);

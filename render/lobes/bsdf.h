@@ -24,7 +24,7 @@ class Bsdf {
   bool has_spread() const;
   // f |cos| for light from `in`, without sharp lobes.
   Spectrum evaluate(const Vec3& in) const;
-  // The share of evaluate() that matt lobes and nap bring, lane by lane.
+  // The share of evaluate() that matt bodies and nap bring, lane by lane; coats over them do not count.
   Spectrum matt_share(const Vec3& in) const;
   // Of sample() for that direction.
   double density(const Vec3& in) const;
@@ -33,8 +33,8 @@ class Bsdf {
   const Vec3& normal() const { return frame_.z; }
 
  private:
-  template <class Counts>
-  Spectrum sum_over(const Vec3& in, const Counts& counts) const;
+  template <class Evaluate>
+  Spectrum sum_over(const Vec3& in, const Evaluate& evaluate) const;
   // Light from a side of the shading normal that is another one of the surface is none.
   bool is_possible(const Vec3& in, const Vec3& local_in) const {
     return (glm::dot(in, geometric_normal_) > 0) == (local_in.z > 0);

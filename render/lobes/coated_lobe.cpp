@@ -56,8 +56,13 @@ double CoatedMattLobe::coat_probability(const Vec3& out) const {
 
 Spectrum CoatedMattLobe::evaluate(const Vec3& out, const Vec3& in, const Sides& sides) const {
   if (in.z <= 0) return {};
+  return coat.evaluate(out, in, sides) + evaluate_body(out, in);
+}
+
+Spectrum CoatedMattLobe::evaluate_body(const Vec3& out, const Vec3& in) const {
+  if (in.z <= 0) return {};
   const double passes = (1 - coat.albedo->at(out)) * (1 - coat.albedo->at(in)) / (1 - coat.albedo->mean());
-  return coat.evaluate(out, in, sides) + static_cast<float>(passes * in.z / kPi) * albedo;
+  return static_cast<float>(passes * in.z / kPi) * albedo;
 }
 
 double CoatedMattLobe::density(const Vec3& out, const Vec3& in, const Sides& sides) const {

@@ -31,6 +31,8 @@ struct CoatedMattLobe {
   CoatLobe coat;
 
   Spectrum evaluate(const Vec3& out, const Vec3& in, const Sides& sides) const;
+  // Without the coat's own reflection.
+  Spectrum evaluate_body(const Vec3& out, const Vec3& in) const;
   double density(const Vec3& out, const Vec3& in, const Sides& sides) const;
   LobeSample sample(const Vec3& out, const Vec2& choice, const Vec2& square, const Sides& sides) const;
   double importance(const Vec3& out, const Sides& sides) const;

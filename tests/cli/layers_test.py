@@ -43,6 +43,16 @@ class Layers(ProgramTest):
         self.assertGreater(max(planes["transmission.R"]), 0.01)
         self.assertGreater(max(planes["variance.R"]), 0)
 
+    def test_highlights_of_coats_are_specular(self):
+        """Of a black body under a rough coat all that comes back is."""
+        self.scene("layers: [color, diffuse, specular]")
+        scene = (self.folder / "scene.yaml").read_text()
+        self.write("scene.yaml", scene.replace("[0.7, 0.1, 0.1]", "0").replace("material: glass", "material: red"))
+        self.run_program("render", "scene.yaml", "--quiet")
+        _, planes = read_exr(self.bytes_of("picture.exr"))
+        self.assertEqual(max(planes["diffuse.G"]), 0)
+        self.assertGreater(max(planes["specular.G"]), 0.01)
+
     def test_cryptomatte_is_read_back(self):
         """The matte of each name in the manifest, as the specification decodes it, against the layer of numbers."""
         image = "layers: [id, samples, cryptomatte_object, cryptomatte_material], filter: box"
