@@ -23,6 +23,8 @@ inline constexpr std::string_view kPartialMagic = "lekalo partial ";
 // (denoise.h).
 const std::vector<std::string>& film_layers();
 bool keeps_layer(const Film& film, std::string_view layer);
+// Whether the channel of that name holds light, or the alpha with it, so that its mean over pictures means something.
+bool is_light_channel(std::string_view name);
 
 // One of `count` parts of a picture, made by themselves: of the tiles every count-th, beginning with `index`.
 struct PicturePart {

@@ -224,6 +224,11 @@ bool keeps_layer(const Film& film, std::string_view layer) {
   });
 }
 
+bool is_light_channel(std::string_view name) {
+  return name.starts_with("group.") ||
+         std::any_of(kChannels, kChannels + kGroups, [&](const ChannelName& known) { return name == known.channel; });
+}
+
 const std::vector<std::string>& film_layers() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> list;

@@ -7,6 +7,7 @@ import subprocess
 import time
 import unittest
 
+from exr import read_exr
 from program import DONE, FILE_ERROR, INTERRUPTED, LEKALO, ProgramTest, SCENE_ERROR, USAGE
 
 SCENE = """lekalo: 1
@@ -57,6 +58,35 @@ image: { size: [20, 20], samples: 16, background: black }
         self.assertIn("--shutter takes NAME=A..B:N", said)
         said = self.run_program("render", "disc.yaml", "--shutter", "weg=0..1:2", "-o", "no.exr", "--quiet", code=SCENE_ERROR)[1]
         self.assertIn("--shutter weg=0..1:2: the scene has no parameter 'weg'", said)
+
+    def test_shutter_blurs_all_layers_of_light(self):
+        """Parts add up to the colour; the mean is as sure as all samples make it; mattes are refused."""
+        self.write("lit.yaml", """lekalo: 1
+parameters: { way: 0, bright: 1 }
+geometry: { floor: { type: plane, size: [4, 4] }, ball: { type: ball, radius: 0.5, center: [way, 0, 1] } }
+objects: [{ shape: floor, material: { type: diffuse, color: 0.5 } }, { shape: ball, material: { type: plastic } }]
+lights: { lamp: { type: sphere_light, center: [0, -1, 4], radius: 0.5, intensity: bright, group: key } }
+camera: { type: perspective, from: [0, -4, 5], at: [0, 0, 0.5] }
+integrator: { type: path, photons: 1000 }
+image: { size: [24, 16], samples: 64, background: black, layers: [color, direct, indirect, diffuse, specular, light_groups,
+  samples, variance, normal, depth, albedo, denoised] }
+""")
+        self.run_program("render", "lit.yaml", "--shutter", "way=-0.7..0.7:8", "-o", "blur.exr", "--quiet")
+        _, planes = read_exr(self.bytes_of("blur.exr"))
+        for parts in ("direct", "indirect"), ("diffuse", "specular"), ("group.key", "group.rest"):
+            for i, color in enumerate(planes["G"]):
+                self.assert_near(sum(planes[f"{part}.G"][i] for part in parts), color, 1e-5)
+        self.assertEqual(set(planes["samples"]), {64})
+        mean = lambda name, plane: sum(read_exr(self.bytes_of(name))[1][plane]) / (24 * 16)
+        self.assert_near(mean("blur.exr", "denoised.G"), mean("blur.exr", "G"), 0.03 * mean("blur.exr", "G"))
+        # Of a scene that does not move it is the variance of one picture of as many samples.
+        self.run_program("render", "lit.yaml", "--shutter", "bright=1..1:8", "-o", "still.exr", "--quiet")
+        self.run_program("render", "lit.yaml", "-o", "one.exr", "--quiet")
+        one = mean("one.exr", "variance.G")
+        self.assert_near(mean("still.exr", "variance.G"), one, 0.5 * one)
+        said = self.run_program("render", "lit.yaml", "--shutter", "way=0..1:2", "--layers", "color,cryptomatte_object", "-o",
+                                "no.exr", "--quiet", code=USAGE)[1]
+        self.assertIn("'cryptomatte_object'", said)
 
     def test_interrupted_frames_go_on_as_told(self):
         """The change of the command that the message tells, typed in a shell: the frame ends in the same bits."""

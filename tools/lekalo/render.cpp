@@ -155,24 +155,25 @@ render::RenderResult render_watched(Run& run, const render::World& world, const 
   return render::render(world, settings);
 }
 
-bool is_light(const render::Channel& channel) {
-  return channel.name.size() == 1 ? channel.name != "Z" : channel.name.starts_with("direct.");
-}
+bool is_variance(const render::Channel& channel) { return channel.name.starts_with("variance."); }
 
-// Adds the light of a picture to `sum`; what else its layers hold takes the place of that there where `takes_data`.
-void add_light(render::Image& sum, const render::Image& picture, bool takes_data) {
+// Adds the light of a picture to `sum`, with its variance and the number of its samples; what else its layers hold
+// takes the place of that there where `takes_data`.
+void add_picture(render::Image& sum, const render::Image& picture, bool takes_data) {
   for (size_t c = 0; c < sum.channels.size(); ++c) {
     render::Channel& to = sum.channels[c];
     const render::Channel& from = picture.channels[c];
-    if (is_light(to))
+    if (render::is_light_channel(to.name) || is_variance(to) || to.name == "samples") {
       for (size_t i = 0; i < to.values.size(); ++i) to.values[i] += from.values[i];
-    else if (takes_data)
+      for (size_t i = 0; i < to.ids.size(); ++i) to.ids[i] += from.ids[i];
+    } else if (takes_data) {
       to = from;
+    }
   }
 }
 
 // Makes of the picture of the first instant the mean of those of all: what moves is blurred, by as many places as there
-// are instants. Layers that are no light are those of the instant in the middle.
+// are instants. Layers of what is seen are those of the instant in the middle.
 void blur(Run& run, const Frame& frame, const Model& first, const render::RenderOptions& settings,
           render::RenderResult& result) {
   const size_t count = run.instants.size();
@@ -190,12 +191,14 @@ void blur(Run& run, const Frame& frame, const Model& first, const render::Render
     result.camera_rays += next.camera_rays;
     result.shadow_rays += next.shadow_rays;
     result.other_rays += next.other_rays;
-    add_light(result.image, next.image, k == count / 2);
+    add_picture(result.image, next.image, k == count / 2);
   }
   if (!result.complete) return;
+  const auto n = static_cast<float>(count);
   for (render::Channel& channel : result.image.channels)
-    if (is_light(channel))
-      for (size_t i = 0; i < channel.values.size(); ++i) channel.values[i] /= static_cast<float>(count);
+    if (const bool varies = is_variance(channel); varies || render::is_light_channel(channel.name))
+      for (float& value : channel.values) value /= varies ? n * n : n;
+  if (render::find_channel(result.image, "denoised.R")) render::denoise(result.image);
 }
 
 // No ray of the camera met anything, and there is no background but what is transparent.
@@ -296,6 +299,12 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   if (std::none_of(outputs.begin(), outputs.end(), [](const OutputFile& f) { return f.path.ends_with(".exr"); }))
     model->film.layers = {"color"};
   const auto instants = static_cast<int>(run.instants.size());
+  for (const char* mattes : {"cryptomatte_object", "cryptomatte_material"})
+    if (instants > 1 && render::keeps_layer(model->film, mattes))
+      throw UsageError(
+          fmt::format("--shutter does not go with the layer '{}': the mattes of instants do not add up; leave it out "
+                      "with --layers",
+                      mattes));
   model->film.samples = (model->film.samples + instants - 1) / instants;
 
   const render::World world(model, render::keeps_layer(model->film, "uv"));
