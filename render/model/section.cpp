@@ -99,6 +99,20 @@ Effect effect_on(const Section& section, const Box3& box) {
   return all ? Effect::all : Effect::some;
 }
 
+// The object's solid without what its capped clips take away: rays close their cuts of bodies alone, and what a section
+// leaves is none.
+ShapePtr with_caps(const ShapePtr& solid, Object& object) {
+  const Affine back = object.transform.inverse();
+  std::vector<ShapePtr> operands{solid};
+  for (const ClipPlane& clip : object.clips)
+    if (clip.cap)
+      operands.push_back(std::make_shared<HalfSpaceShape>(
+          back.point(clip.through), -glm::normalize(glm::transpose(object.transform.linear) * clip.normal)));
+  if (operands.size() == 1) return solid;
+  std::erase_if(object.clips, [](const ClipPlane& clip) { return clip.cap; });
+  return std::make_shared<Csg>(Csg::Operation::subtract, operands);
+}
+
 class Cutting {
  public:
   explicit Cutting(const Section& section) : section_(section) {}
@@ -118,12 +132,13 @@ class Cutting {
       object.shape = std::make_shared<const Group>(Group{of((*group)->objects, to_world)});
       return true;
     }
-    const ShapePtr solid = solid_of(object);
+    ShapePtr solid = solid_of(object);
     if (!solid || !solid->bounds().bounded()) return true;
     const Box3 box = transformed(solid->bounds(), to_world);
     const Effect effect = effect_on(section_, box);
     if (effect != Effect::some) return effect == Effect::none;
     const ShapePtr tool = tool_of(section_, box, to_world);
+    solid = with_caps(solid, object);
     object.first_cut_leaf = leaves(solid);
     object.shape = ShapePtr(std::make_shared<Csg>(Csg::Operation::subtract, std::vector<ShapePtr>{solid, tool}));
     object.representation = Representation::direct;

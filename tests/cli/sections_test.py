@@ -45,6 +45,23 @@ class Sections(ProgramTest):
         self.assertIn("section_hatch", self.draw("[{ shape: part }]", panels=panels))
         self.assertNotIn("section_hatch", self.draw("[{ shape: part, section: none }]", panels=panels))
 
+    def test_capped_clips_stay_closed(self):
+        both = self.draw("[{ shape: block, clip: { through: [2, 0, 0], normal: x, cap: true }, "
+                         "section: { planes: { through: [0, 2, 0], normal: -y }, hatch: { angle: 0 } } }]")
+        self.assertGreater(len(self.hatching(both)), 5)
+        # The same solid by half-spaces, seen from where its cap is.
+        pictures = []
+        for look in ("clip: { through: [2, 0, 0], normal: x, cap: true }, shape: block",
+                     "shape: { type: intersection, of: [block, { type: half_space, through: [2, 0, 0], normal: x }] }"):
+            self.write("c.yaml", f"""lekalo: 1
+geometry: {PART}objects: [{{ {look}, section: {{ planes: {{ through: [0, 2, 0], normal: -y }} }} }}]
+camera: {{ view: {{ azimuth: 30, elevation: 20 }} }}
+image: {{ size: [40, 30], samples: 4 }}
+""")
+            self.run_program("render", "c.yaml", "-o", "c.png")
+            pictures.append((self.folder / "c.png").read_bytes())
+        self.assertEqual(*pictures)
+
     def test_errors(self):
         for section, message in (("{ hatch: none }", "one of 'planes', 'path' and 'cut_away'"),
                                  ("{ planes: { through: [0, 9, 0], normal: y } }", "does not cut"),
