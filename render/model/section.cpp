@@ -9,6 +9,7 @@
 #include "geometry/shapes/csg/csg.h"
 #include "geometry/shapes/csg/half_space.h"
 #include "geometry/transformed.h"
+#include "render/model/text_template.h"
 
 namespace lekalo::render {
 
@@ -180,7 +181,7 @@ std::vector<Field> section_fields(bool titled) {
        false,
        {}},
       {"hatch", section_hatch(), "of the cut faces of objects that do not say; none: no lines", false, "{}"}};
-  if (titled) fields.push_back({"title", text(), "letter of the section: A names the view A–A", false, {}});
+  if (titled) fields.push_back({"title", label(), "letter of the section: A names the view A–A", false, {}});
   return fields;
 }
 
@@ -224,7 +225,7 @@ Section section_of(const Fields& fields) {
       throw FieldError("cut_away", "this shape is not closed: it has no inside", section.cut_away->how_to_close());
   }
   section.faces = cut_faces_of(fields, "hatch");
-  if (fields.has("title")) section.title = fields.text("title");
+  if (fields.has("title")) section.title = fields.get<TextTemplate>("title").text();
   return section;
 }
 

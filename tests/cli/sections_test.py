@@ -71,6 +71,10 @@ image: {{ size: [40, 30], samples: 4 }}
             self.write("e.yaml", f"lekalo: 1\ngeometry: {PART}objects: [{{ shape: part, section: {section} }}]\n")
             self.assertIn(message, self.run_program("check", "e.yaml", code=3)[1], section)
 
+        self.write("e.yaml", f"lekalo: 1\ngeometry: {PART}objects: [{{ shape: part }}]\n"
+                   "panels: { a: { section: { planes: { through: [2, 2, 2], normal: -y }, title: '$A' } } }\n")
+        self.assertIn("this $ has no partner", self.run_program("check", "e.yaml", code=3)[1])
+
     def test_sections_of_solids_in_numbers(self):
         self.write("n.yaml", f"""lekalo: 1
 geometry: {PART}  ball: {{ type: implicit, formula: x^2 + y^2 + z^2 - 1, ball: {{ radius: 1.5 }} }}
