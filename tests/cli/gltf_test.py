@@ -22,12 +22,14 @@ materials:
   gold: { type: conductor, metal: Au, roughness: 0.3 }
   ink: { type: plastic, color: [0.2, 0.4, 0.6], roughness: 0.5 }
   pane: { type: dielectric, index: 1.6 }
+  flint: { type: dielectric, glass: N-SF6 }
 objects:
   - { shape: ball, name: globe, material: gold }
   - { shape: block, material: ink, lines: { sharp: { width: 2 px, color: red } } }
   - { shape: block, name: glass, material: pane, transform: { translate: [0, 0, 9] } }
   - { shape: rim }
 """
+FLINT = "  - { shape: block, name: prism, material: flint, transform: { translate: [0, 9, 0] } }\n"
 SIZES = {"SCALAR": 1, "VEC3": 3}
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
@@ -92,6 +94,9 @@ class Gltf(ProgramTest):
         self.assertEqual((ink["metallicFactor"], ink["roughnessFactor"]), (0, 0.5))
         self.assert_near(ink["baseColorFactor"], [0.2, 0.4, 0.6, 1], 1e-6)
         self.assertEqual(materials["pane"]["extensions"]["KHR_materials_ior"]["ior"], 1.6)
+        self.write("things.yaml", SCENE + FLINT)
+        flint = {one["name"]: one for one in self.export()["materials"]}["flint"]
+        self.assert_near(flint["extensions"]["KHR_materials_ior"]["ior"], 1.80518, 1e-4)
         self.assertEqual(model["extensionsUsed"], ["KHR_materials_ior", "KHR_materials_transmission", "KHR_materials_unlit"])
         nodes = self.nodes(model)
         edges = model["meshes"][nodes["block lines"]["mesh"]]["primitives"]

@@ -16,6 +16,7 @@
 #include "render/image/image_error.h"
 #include "render/lines/strokes.h"
 #include "render/materials/materials.h"
+#include "render/materials/optical_constants.h"
 #include "render/mesh_files/gltf.h"
 #include "render/scene/values/characters.h"
 #include "render/scene/yaml/data_path.h"
@@ -48,7 +49,7 @@ GltfMaterial material_of(const render::Material& material, std::string name) {
   } else if (const auto* clear = std::any_cast<render::Dielectric>(&made)) {
     result.color = Vec3(1);
     result.transmission = 1;
-    result.index = clear->index;
+    result.index = clear->glass.empty() ? clear->index : render::dielectric_index(clear->glass, render::kLineD);
     result.roughness = clear->roughness.at(point);
   } else if (const auto* many = std::any_cast<render::Principled>(&made)) {
     result.metalness = many->base_metalness.at(point);
