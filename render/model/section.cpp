@@ -124,20 +124,23 @@ class Cutting {
       if (cut(object, to_world * object.transform)) kept.push_back(std::move(object));
     return kept;
   }
+  const SectionEffect& effect() const { return effect_; }
 
  private:
   // False where nothing is left.
   bool cut(Object& object, const Affine& to_world) {
     if (!object.may_be_cut || object.first_cut_leaf >= 0) return true;
     if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
-      object.shape = std::make_shared<const Group>(Group{of((*group)->objects, to_world)});
-      return true;
+      const bool was_empty = (*group)->objects.empty();
+      auto left = std::make_shared<const Group>(Group{of((*group)->objects, to_world)});
+      object.shape = left;
+      return was_empty || !left->objects.empty();
     }
     ShapePtr solid = solid_of(object);
-    if (!solid || !solid->bounds().bounded()) return true;
-    const Box3 box = transformed(solid->bounds(), to_world);
-    const Effect effect = effect_on(section_, box);
-    if (effect != Effect::some) return effect == Effect::none;
+    const Box3 box = solid ? transformed(solid->bounds(), to_world) : Box3();
+    const Effect effect = solid && solid->bounds().bounded() ? effect_on(section_, box) : Effect::none;
+    if (effect == Effect::none) return ++effect_.untouched, true;
+    if (effect == Effect::all) return ++effect_.taken_away, false;
     const ShapePtr tool = tool_of(section_, box, to_world);
     solid = with_caps(solid, object);
     object.first_cut_leaf = leaves(solid);
@@ -146,10 +149,12 @@ class Cutting {
     if (!object.cut_faces) object.cut_faces = section_.faces;
     if (object.cut_faces->own_angle)
       object.cut_faces->hatching.angle = kAngles[count_++ % std::size(kAngles)] * kPi / 180;
+    ++effect_.cut;
     return true;
   }
 
   const Section& section_;
+  SectionEffect effect_;
   size_t count_ = 0;
 };
 
@@ -229,7 +234,11 @@ Section section_of(const Fields& fields) {
   return section;
 }
 
-void cut(std::vector<Object>& objects, const Section& section) { objects = Cutting(section).of(objects, Affine()); }
+SectionEffect cut(std::vector<Object>& objects, const Section& section) {
+  Cutting cutting(section);
+  objects = cutting.of(objects, Affine());
+  return cutting.effect();
+}
 
 bool has_hatched_cuts(const std::vector<Object>& objects) {
   return std::any_of(objects.begin(), objects.end(), [](const Object& object) {

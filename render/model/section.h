@@ -29,9 +29,15 @@ geometry::FieldType section_hatch();
 Section section_of(const geometry::Fields& fields);
 CutFaces cut_faces_of(const geometry::Fields& fields, const char* field);
 
+// What a section did to objects, those in groups counted one by one. Objects that have a section of their own, or want
+// none, are not counted.
+struct SectionEffect {
+  int cut = 0, taken_away = 0, untouched = 0;
+};
+
 // The objects with what the section takes away of solids cut off. Curves, points and open surfaces stay; objects that
-// have a section of their own, or want none, as well. Throws FieldError for a section that leaves nothing of an object.
-void cut(std::vector<Object>& objects, const Section& section);
+// have a section of their own, or want none, as well. Of what is taken away whole nothing is left in the list.
+SectionEffect cut(std::vector<Object>& objects, const Section& section);
 
 // Whether drawings hatch cut faces of some of the objects.
 bool has_hatched_cuts(const std::vector<Object>& objects);

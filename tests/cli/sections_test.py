@@ -73,6 +73,13 @@ image: {{ size: [40, 30], samples: 4 }}
 
         self.write("e.yaml", f"lekalo: 1\ngeometry: {PART}objects: [{{ shape: part }}]\n"
                    "panels: { a: { section: { planes: { through: [2, 2, 2], normal: -y }, title: '$A' } } }\n")
+        text = (self.folder / "e.yaml").read_text().replace("'$A'", "A")
+        for plane, message in (("{ through: [2, 9, 2], normal: -y }", "leaves nothing"),
+                               ("{ through: [2, 9, 2], normal: y }", "cuts none")):
+            self.write("p.yaml", text.replace("{ through: [2, 2, 2], normal: -y }", plane))
+            said = self.run_program("check", "p.yaml", code=3)[1]
+            self.assertIn(message, said)
+            self.assertIn("section", said)
         self.assertIn("this $ has no partner", self.run_program("check", "e.yaml", code=3)[1])
 
     def test_sections_of_solids_in_numbers(self):

@@ -115,6 +115,20 @@ void Builder::check_axes(const Value* drawing, bool graph) {
                          "{ type: axes, at: [0, 0, 0] }");
 }
 
+namespace {
+
+void cut_for_panel(std::vector<Object>& objects, const Section& section) {
+  const SectionEffect effect = cut(objects, section);
+  if (objects.empty() && effect.taken_away > 0)
+    throw geometry::FieldError("section", "this section leaves nothing of the panel's objects",
+                               "what is on the normal's side is taken away");
+  if (effect.cut + effect.taken_away == 0 && effect.untouched > 0)
+    throw geometry::FieldError("section", "this section cuts none of the panel's objects",
+                               "it cuts closed bodies and shapes; surfaces and curves are cut by 'clip'");
+}
+
+}  // namespace
+
 void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
   visit_named("panels", Category::panel, [&](const std::string& name, const Built& built) {
     auto read = std::any_cast<PanelAsRead>(built.value);
@@ -132,7 +146,7 @@ void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
     }
     if (read.section) {
       if (!panel.objects) panel.objects = model.objects;
-      attempt(place, "'section'", [&] { return cut(*panel.objects, *read.section), true; });
+      attempt(place, "'section'", [&] { return cut_for_panel(*panel.objects, *read.section), true; });
       panel.section = read.section;
     }
     panel.make_camera = model.make_camera;
