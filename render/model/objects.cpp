@@ -128,14 +128,12 @@ double sag_of_angle(const Object& object) {
 
 void cut_by_own_section(const Fields& fields, Objects& objects) {
   try {
-    const size_t before = objects.size();
-    cut(objects, section_of(fields.group("section")));
-    if (objects.size() < before)
+    const SectionEffect effect = cut(objects, section_of(fields.group("section")));
+    if (objects.empty() && effect.taken_away > 0)
       throw FieldError("", "this section leaves nothing of the object", "what is on the normal's side is taken away");
-    for (const Object& object : objects)
-      if (object.first_cut_leaf < 0 && !std::holds_alternative<GroupPtr>(object.shape))
-        throw FieldError("", "this section does not cut the object",
-                         "it cuts closed bodies and shapes; surfaces and curves are cut by 'clip'");
+    if (effect.cut + effect.taken_away == 0 && effect.untouched > 0)
+      throw FieldError("", "this section does not cut the object",
+                       "it cuts closed bodies and shapes; surfaces and curves are cut by 'clip'");
   } catch (const FieldError& error) {
     throw FieldError(error.field.empty() ? "section" : "section." + error.field, error.what(), error.hint);
   }

@@ -45,6 +45,16 @@ class Sections(ProgramTest):
         self.assertIn("section_hatch", self.draw("[{ shape: part }]", panels=panels))
         self.assertNotIn("section_hatch", self.draw("[{ shape: part, section: none }]", panels=panels))
 
+    def test_families_and_groups_are_cut_as_one(self):
+        listed = "[{ type: ball, radius: 1 }, { type: ball, center: [3, 0, 0], radius: 1 }, { type: ball, center: [6, 0, 0], radius: 1 }]"
+        for shape in listed, "{ type: group, of: [{ shape: %s }] }" % listed:
+            for x in 3, 1.5:  # through the second; between the first and the second
+                self.draw(f"[{{ shape: {shape}, section: {{ planes: {{ through: [{x}, 0, 0], normal: -x }} }} }}]")
+            for through, message in ((9, "leaves nothing"), (-9, "does not cut")):
+                self.write("e.yaml", f"lekalo: 1\nobjects: [{{ shape: {shape}, section: "
+                           f"{{ planes: {{ through: [{through}, 0, 0], normal: -x }} }} }}]\n")
+                self.assertIn(message, self.run_program("check", "e.yaml", code=3)[1])
+
     def test_capped_clips_stay_closed(self):
         both = self.draw("[{ shape: block, clip: { through: [2, 0, 0], normal: x, cap: true }, "
                          "section: { planes: { through: [0, 2, 0], normal: -y }, hatch: { angle: 0 } } }]")
