@@ -20,6 +20,7 @@ namespace {
 // Hatchings of neighbours, which differ (ISO 128-3).
 constexpr double kAngles[] = {45, 135, 30, 150, 60, 120};  // degrees
 constexpr double kBeyond = 0.1;                            // of the size: by which tools go beyond what they cut
+constexpr double kSamePlace = 1e-9;                        // of a path's size
 
 ShapePtr solid_of(const Object& object) {
   if (const auto* body = std::get_if<BodyPtr>(&object.shape))
@@ -35,17 +36,49 @@ std::vector<Vec3> corners(const Box3& box) {
   return all;
 }
 
-// The line of a stepped section, its ends taken beyond the box, and what lies on its side of `towards`.
-Body prism_behind(const Section& section, const Box3& box) {
+// The frame of a stepped section: its line lies in the x-y plane, y is the side that is taken away.
+Frame frame_of(const Section& section) {
   const Vec3 z = glm::normalize(section.along), y = glm::normalize(section.towards - glm::dot(section.towards, z) * z);
   Frame frame;
   frame.x = glm::cross(y, z), frame.y = y, frame.z = z;
+  return frame;
+}
+
+// The line must lead across the side that is taken away, from one end to the other: then it parts what is taken away
+// from what stays.
+void check_path(const Section& section) {
+  const Frame frame = frame_of(section);
+  std::vector<Vec2> line;
+  for (const Vec3& p : section.path) line.push_back(Vec2(frame.to_local_point(p)));
+  double size = 0;
+  for (const Vec2& p : line) size = std::max(size, glm::length(p - line.front()));
+  const double same = kSamePlace * size, across = line.back().x - line.front().x;
+  const auto corner = [](size_t k) { return "path." + std::to_string(k); };
+  for (size_t k = 1; k < line.size(); ++k)
+    if (glm::length(line[k] - line[k - 1]) <= same)
+      throw FieldError(corner(k), "seen along 'along', this corner lies on the one before", "leave it out");
+  if (std::abs(across) <= same)
+    throw FieldError("path", "the line does not lead across 'towards'", "for towards: -y it goes from left to right");
+  for (size_t k = 1; k < line.size(); ++k) {
+    const double step = (line[k].x - line[k - 1].x) * (across > 0 ? 1 : -1);
+    if (step < -same)
+      throw FieldError(corner(k), "the line goes back: nothing says what lies behind it",
+                       "steps lead along 'towards' or across it, always the same way");
+    if (std::abs(step) <= same && (k == 1 || k == line.size() - 1))
+      throw FieldError(corner(k == 1 ? 0 : k), "the line ends along 'towards': its ends go on without end",
+                       "let the first and the last piece lead across 'towards'");
+  }
+}
+
+// The line of a stepped section, its ends taken beyond the box, and what lies on its side of `towards`.
+Body prism_behind(const Section& section, const Box3& box) {
+  Frame frame = frame_of(section);
   const double reach = (1 + kBeyond) * box.diameter();
   Interval height(kInfinity, -kInfinity);
   Vec2 lo(kInfinity), hi(-kInfinity);
-  const auto local = [&](const Vec3& p) { return Vec2(glm::dot(p, frame.x), glm::dot(p, frame.y)); };
+  const auto local = [&](const Vec3& p) { return Vec2(frame.to_local_point(p)); };
   for (const Vec3& p : corners(box)) {
-    height = hull(height, Interval(glm::dot(p, z)));
+    height = hull(height, Interval(glm::dot(p, frame.z)));
     lo = glm::min(lo, local(p)), hi = glm::max(hi, local(p));
   }
   std::vector<Vec2> line;
@@ -56,7 +89,7 @@ Body prism_behind(const Section& section, const Box3& box) {
   const double top = std::max({hi.y, line.front().y, line.back().y}) + reach;
   line.emplace_back(line.back().x, top);
   line.emplace_back(line.front().x, top);
-  frame.origin = (height.lo - kBeyond * reach) * z;
+  frame.origin = (height.lo - kBeyond * reach) * frame.z;
   return prism(frame, line, height.width() + 2 * kBeyond * reach);
 }
 
@@ -216,6 +249,7 @@ Section section_of(const Fields& fields) {
     section.towards = fields.vec3("towards");
     if (glm::length(glm::cross(section.along, section.towards)) < 1e-9)
       throw FieldError("towards", "the side that is taken away lies across 'along'", "towards: -y, along: z");
+    check_path(section);
   } else {
     for (const char* field : {"along", "towards"})
       if (fields.given(field)) throw FieldError(field, std::string("'") + field + "' goes with 'path'");

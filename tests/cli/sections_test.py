@@ -45,6 +45,13 @@ class Sections(ProgramTest):
         self.assertIn("section_hatch", self.draw("[{ shape: part }]", panels=panels))
         self.assertNotIn("section_hatch", self.draw("[{ shape: part, section: none }]", panels=panels))
 
+    def test_stepped_paths_in_both_directions(self):
+        path = "[[0, 3], [2, 3], [2, 1], [4, 1]]"
+        back = "[[4, 1], [2, 1], [2, 3], [0, 3]]"
+        both = [self.draw(f"[{{ shape: part, section: {{ path: {p}, towards: -y }} }}]") for p in (path, back)]
+        self.assertIn("section_hatch", both[0])
+        self.assertEqual(*both)
+
     def test_families_and_groups_are_cut_as_one(self):
         listed = "[{ type: ball, radius: 1 }, { type: ball, center: [3, 0, 0], radius: 1 }, { type: ball, center: [6, 0, 0], radius: 1 }]"
         for shape in listed, "{ type: group, of: [{ shape: %s }] }" % listed:
@@ -77,6 +84,10 @@ image: {{ size: [40, 30], samples: 4 }}
                                  ("{ planes: { through: [0, 9, 0], normal: y } }", "does not cut"),
                                  ("{ planes: { through: [0, 9, 0], normal: -y } }", "leaves nothing"),
                                  ("{ path: [[0, 2], [4, 2]] }", "needs 'towards'"),
+                                 ("{ path: [[0, 3], [3, 3], [3, 1], [2, 1]], towards: -y }", "goes back"),
+                                 ("{ path: [[0, 3], [0, 3], [4, 3]], towards: -y }", "the one before"),
+                                 ("{ path: [[2, 0], [2, 4]], towards: -y }", "does not lead across"),
+                                 ("{ path: [[2, 4], [2, 2], [4, 2]], towards: -y }", "ends along"),
                                  ("{ cut_away: block, towards: x }", "goes with 'path'")):
             self.write("e.yaml", f"lekalo: 1\ngeometry: {PART}objects: [{{ shape: part, section: {section} }}]\n")
             self.assertIn(message, self.run_program("check", "e.yaml", code=3)[1], section)
