@@ -52,6 +52,17 @@ class Sections(ProgramTest):
         self.assertIn("section_hatch", both[0])
         self.assertEqual(*both)
 
+    def test_center_lines_of_what_is_left(self):
+        def axes(section):
+            svg = self.draw(f"[{{ shape: part, section: {{ {section} }} }}]", drawing="drawing: { center_lines: true }\n")
+            return {x for x in re.findall(r'd="M([\d.]+) [^"]*" [^>]*stroke-dasharray', svg)}
+
+        self.assertEqual(axes("planes: { through: [2, 2, 2], normal: -y }"), {"40"})
+        # The bore is taken away; a round tool has no axis of its own.
+        self.assertEqual(axes("planes: { through: [2, 3.5, 2], normal: -y }"), set())
+        tool = "{ type: cylinder_body, radius: 0.3, axis: { through: [0.5, 0, 0], along: z }, heights: [-1, 5] }"
+        self.assertEqual(axes(f"cut_away: {tool}"), {"40"})
+
     def test_families_and_groups_are_cut_as_one(self):
         listed = "[{ type: ball, radius: 1 }, { type: ball, center: [3, 0, 0], radius: 1 }, { type: ball, center: [6, 0, 0], radius: 1 }]"
         for shape in listed, "{ type: group, of: [{ shape: %s }] }" % listed:

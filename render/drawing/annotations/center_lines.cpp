@@ -10,8 +10,10 @@
 #include "geometry/curves/analytic/circle.h"
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/operations/parameter_line.h"
+#include "geometry/queries/closest/position.h"
 #include "geometry/queries/differential/roundness.h"
 #include "geometry/queries/quadrics/canonical_surface.h"
+#include "geometry/shapes/csg/body_shape.h"
 #include "geometry/shapes/csg/csg_leaves.h"
 #include "geometry/transformed.h"
 #include "render/drawing/annotations/annotation_work.h"
@@ -89,18 +91,43 @@ void add_faces(const Body& body, std::vector<RoundFace>& faces) {
     if (const auto face = round_face(body.faces[k].surface, points_of_border(body, k))) faces.push_back(*face);
 }
 
+// Of a solid and what it is put together of.
+void add_faces(const ShapePtr& shape, const Affine& to_world, std::vector<RoundFace>& faces) {
+  const auto* moved = dynamic_cast<const TransformedShape*>(shape.get());
+  const Shape* original = moved ? moved->original().get() : shape.get();
+  const Affine placed = moved ? to_world * moved->map() : to_world;
+  if (const auto* solid = dynamic_cast<const BodyShape*>(original))
+    add_faces(transformed(*solid->body(), placed), faces);
+  const auto* solid = dynamic_cast<const Csg*>(original);
+  if (!solid) return;
+  for (const CsgLeaf& leaf : csg_leaves(*solid))
+    if (leaf.body) add_faces(transformed(*leaf.body, placed), faces);
+}
+
+// Whether all of it lies in what a section takes away.
+bool is_taken_away(const RoundFace& face, const Shape& tool, const Affine& from_world) {
+  constexpr int kHeights = 5, kAround = 8;
+  const Frame frame = frame_about(face.axis.through, face.axis.along);
+  for (int i = 0; i < kHeights; ++i)
+    for (int j = 0; j < kAround; ++j) {
+      const double height = face.along.lo + face.along.width() * (i + 0.5) / kHeights;
+      const double angle = kTwoPi * (j + 0.3) / kAround;
+      const Vec3 around = face.radius * Vec3(std::cos(angle), std::sin(angle), 0) + Vec3(0, 0, height);
+      if (!is_inside(from_world.point(frame.point(around)), tool)) return false;
+    }
+  return true;
+}
+
 void add_faces(const Object& object, const Affine& to_world, std::vector<RoundFace>& faces) {
   if (const auto* body = std::get_if<BodyPtr>(&object.shape)) add_faces(transformed(**body, to_world), faces);
   const auto* shape = std::get_if<ShapePtr>(&object.shape);
   if (!shape) return;
-  const auto* moved = dynamic_cast<const TransformedShape*>(shape->get());
-  const auto* solid = dynamic_cast<const Csg*>(moved ? moved->original().get() : shape->get());
-  if (!solid) return;
+  // What a section cut is the solid, less what it took away: that has no axes here.
+  const auto* cut = object.first_cut_leaf < 0 ? nullptr : dynamic_cast<const Csg*>(shape->get());
   const Box3 box = transformed((*shape)->bounds(), to_world);
-  const Affine placed = moved ? to_world * moved->map() : to_world;
+  const Affine from_world = to_world.inverse();
   std::vector<RoundFace> found;
-  for (const CsgLeaf& leaf : csg_leaves(*solid))
-    if (leaf.body) add_faces(transformed(*leaf.body, placed), found);
+  add_faces(cut ? cut->operands().front() : *shape, to_world, found);
   // Tools are longer than what they cut.
   for (RoundFace& face : found) {
     Interval inside(kInfinity, -kInfinity);
@@ -109,7 +136,8 @@ void add_faces(const Object& object, const Affine& to_world, std::vector<RoundFa
       inside = hull(inside, Interval(glm::dot(corner - face.axis.through, face.axis.along)));
     }
     face.along = {std::max(face.along.lo, inside.lo), std::min(face.along.hi, inside.hi)};
-    if (face.along.width() > 0) faces.push_back(face);
+    if (face.along.width() > 0 && !(cut && is_taken_away(face, *cut->operands().back(), from_world)))
+      faces.push_back(face);
   }
 }
 
