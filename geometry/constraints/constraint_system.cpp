@@ -26,6 +26,20 @@ struct Values {
   MatrixXd jacobian;
 };
 
+// Where the gradient of the change is a combination of those of the equations.
+struct Stationary {
+  VectorXd p, multipliers;
+};
+
+// An orthonormal basis, one vector a column.
+MatrixXd null_space(const MatrixXd& jacobian) {
+  const Eigen::Index n = jacobian.cols();
+  if (jacobian.rows() == 0) return MatrixXd::Identity(n, n);
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(jacobian.transpose());
+  qr.setThreshold(kRank);
+  return MatrixXd(qr.householderQ()).rightCols(n - qr.rank());
+}
+
 class Solving {
  public:
   explicit Solving(const ConstraintSystem& system) : system_(system), n_(static_cast<int>(system.start.size())) {
@@ -69,13 +83,45 @@ class Solving {
     return names;
   }
 
+  double change(const VectorXd& p) const { return 0.5 * weights_.dot((p - start_).cwiseAbs2()); }
+
   VectorXd least_change() {
-    if (auto found = lagrange(start_)) return *found;
-    const VectorXd feasible = least_norm();
-    if (auto found = lagrange(feasible)) return *found;
-    // A solution, if not the nearest.
-    multipliers_ = VectorXd::Zero(values(feasible, active_).f.size());
-    return feasible;
+    std::optional<Stationary> best = lagrange(start_);
+    if (!best || way_down(*best)) {
+      // Least only to first order, or none: from a solution near the start, and down from what is found.
+      const auto keep = [&](const std::optional<Stationary>& one) {
+        if (one && (!best || change(one->p) < change(best->p))) best = one;
+      };
+      const auto [feasible, at] = least_norm(start_);
+      if (is_met(at.f))
+        keep(lagrange(feasible));
+      else if (!best)
+        refuse(at);
+      // A solution, if not the nearest.
+      if (!best) best = Stationary{feasible, VectorXd::Zero(at.f.size())};
+      if (const auto way = way_down(*best)) {
+        const VectorXd top = best->p;
+        for (const double length : {0.1, -0.1, 0.3, -0.3, 1.0, -1.0, 3.0, -3.0}) {
+          const auto [foot, there] = least_norm(top + length * system_.size * *way);
+          if (is_met(there.f)) keep(lagrange(foot));
+        }
+      }
+    }
+    multipliers_ = best->multipliers;
+    return best->p;
+  }
+
+  // A direction in which the equations let the change fall; nothing where the change is least among its neighbours:
+  // where W + curvature is positive on the null space of the Jacobian.
+  std::optional<VectorXd> way_down(const Stationary& at) const {
+    const MatrixXd jacobian = values(at.p, active_).jacobian;
+    MatrixXd hessian = curvature(at.p, at.multipliers);
+    hessian.diagonal() += weights_;
+    const MatrixXd directions = null_space(jacobian);
+    if (directions.cols() == 0) return std::nullopt;
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(directions.transpose() * hessian * directions);
+    if (!(solver.eigenvalues()[0] < -1e-6 * weights_.maxCoeff())) return std::nullopt;
+    return VectorXd(directions * solver.eigenvectors().col(0));
   }
 
   // Sum of the multipliers times second derivatives, by differences of the gradients.
@@ -92,7 +138,7 @@ class Solving {
   }
 
   // Newton's method for p and the multipliers: W (p - start) + J^T l = 0, f(p) = 0.
-  std::optional<VectorXd> lagrange(VectorXd p) {
+  std::optional<Stationary> lagrange(VectorXd p) const {
     Values at = values(p, active_);
     const int m = static_cast<int>(at.f.size());
     VectorXd multipliers = VectorXd::Zero(m);
@@ -115,20 +161,16 @@ class Solving {
       p += by.head(n_), multipliers += by.tail(m);
       at = values(p, active_);
       if (!at.f.allFinite() || by.head(n_).norm() > 1e3 * (system_.size + start_.norm())) return std::nullopt;
-      if (is_met(at.f) && by.head(n_).lpNorm<Eigen::Infinity>() <= kStep * (system_.size + p.norm())) {
-        multipliers_ = multipliers;
-        return p;
-      }
+      if (is_met(at.f) && by.head(n_).lpNorm<Eigen::Infinity>() <= kStep * (system_.size + p.norm()))
+        return Stationary{p, multipliers};
     }
     // Where second derivatives by differences leave the last digits to a slow end.
     if (!is_met(at.f)) return std::nullopt;
-    multipliers_ = multipliers;
-    return p;
+    return Stationary{p, multipliers};
   }
 
-  // Steps of least norm, each halved until the residual falls.
-  VectorXd least_norm() const {
-    VectorXd p = start_;
+  // Steps of least norm, each halved until the residual falls: as near to a solution as they come.
+  std::pair<VectorXd, Values> least_norm(VectorXd p) const {
     Values at = values(p, active_);
     const VectorXd inverse = weights_.cwiseInverse();
     for (int step = 0; step < kMostSteps && !is_met(at.f); ++step) {
@@ -145,8 +187,7 @@ class Solving {
       if (!(next.f.norm() < at.f.norm() * (1 - 1e-12))) break;
       p += share * by, at = std::move(next);
     }
-    if (!is_met(at.f)) refuse(at);
-    return p;
+    return {p, at};
   }
 
   [[noreturn]] void refuse(const Values& at) const {
@@ -202,7 +243,7 @@ class Solving {
     const Values at = values(p, active_);
     ConstraintSolution result;
     result.unknowns.assign(p.data(), p.data() + n_);
-    result.change = 0.5 * weights_.dot((p - start_).cwiseAbs2());
+    result.change = change(p);
     result.equations = static_cast<int>(at.f.size());
     result.rank = rank_of(at.jacobian);
     result.freedom = n_ - result.rank;

@@ -31,8 +31,9 @@ struct ConstraintSystem {
 };
 
 // Newton's method on the conditions of Lagrange for the least change, from the start; where it does not come to an end,
-// steps of least norm to a solution first, and from it again. Inequalities that are violated become equations, those
-// whose multiplier says that they hold nothing back cease to be one. Throws ConstraintError.
+// or to a place from which the change can fall, steps of least norm to a solution first, and from it again.
+// Inequalities that are violated become equations, those whose multiplier says that they hold nothing back cease to be
+// one. Throws ConstraintError.
 ConstraintSolution solve(const ConstraintSystem& system);
 
 // The rank of the Jacobian at given unknowns, by singular values above 1e-9 of the largest.

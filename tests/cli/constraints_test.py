@@ -1,0 +1,25 @@
+"""The section `constraints`: what is found, what is refused and what is said of it."""
+
+import unittest
+
+from program import SCENE_ERROR, ProgramTest
+
+
+class Constraints(ProgramTest):
+    def scene(self, conditions, rest=""):
+        lines = "".join(f"    - {one}\n" for one in conditions)
+        return self.write("scene.yaml", f"lekalo: 1\nconstraints:\n{rest}  conditions:\n{lines}")
+
+    def solved(self, conditions, **unknowns):
+        """Of variables with these starts, formulas as conditions."""
+        variables = ", ".join(f"{{name: {name}, start: {start}}}" for name, start in unknowns.items())
+        equations = [f"{{type: equation, is: '{one}'}}" for one in conditions]
+        return self.json_of("solve", self.scene(equations, f"  variables: [{variables}]\n"))
+
+    def test_the_change_is_least_among_its_neighbours(self):
+        for a, b, least in (0.1, 2, 0.756703222589612), (0, 2, 0.875):
+            self.assert_near(self.solved(["b = a^2"], a=a, b=b)["change"], least, 1e-8)
+
+
+if __name__ == "__main__":
+    unittest.main()
