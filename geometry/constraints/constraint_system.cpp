@@ -3,8 +3,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <map>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -50,11 +52,10 @@ class Solving {
   }
 
   ConstraintSolution run() {
-    VectorXd p = start_;
     // Each round one inequality begins or ceases to be an equation.
-    const size_t rounds = 2 * system_.constraints.size() + 2;
+    const size_t rounds = 4 * system_.constraints.size() + 4;
     for (size_t round = 0; round < rounds; ++round) {
-      p = least_change();
+      const VectorXd p = least_change_of_some();
       if (!change_active(p)) return finish(p);
     }
     throw ConstraintError("no set of inequalities was found that holds with equality", names_of(active_));
@@ -109,6 +110,35 @@ class Solving {
     }
     multipliers_ = best->multipliers;
     return best->p;
+  }
+
+  // Without one of the inequalities, or all but the newest, where they cannot all be equations; it comes back if it is
+  // violated then. No set is tried twice.
+  VectorXd least_change_of_some() {
+    std::vector<std::vector<int>> sets{active_};
+    const auto is_old = [&](int i) { return system_.constraints[i].is_inequality && i != newest_; };
+    for (const int one : active_) {
+      if (!is_old(one)) continue;
+      sets.push_back(active_);
+      std::erase(sets.back(), one);
+    }
+    if (sets.size() > 2) {
+      sets.push_back(active_);
+      std::erase_if(sets.back(), is_old);
+    }
+    std::exception_ptr first;
+    for (const std::vector<int>& set : sets) {
+      active_ = set;
+      if (std::vector<int> sorted = set;
+          std::sort(sorted.begin(), sorted.end()), !tried_.insert(sorted).second && first)
+        continue;
+      try {
+        return least_change();
+      } catch (const ConstraintError&) {
+        if (!first) first = std::current_exception();
+      }
+    }
+    std::rethrow_exception(first);
   }
 
   // A direction in which the equations let the change fall; nothing where the change is least among its neighbours:
@@ -213,16 +243,20 @@ class Solving {
   // True if an inequality began to be an equation, or ceased to.
   bool change_active(const VectorXd& p) {
     int worst = -1;
-    double least = -kMet * system_.size;
+    double least = 0;
     for (size_t i = 0; i < system_.constraints.size(); ++i) {
       if (!system_.constraints[i].is_inequality ||
           std::find(active_.begin(), active_.end(), static_cast<int>(i)) != active_.end())
         continue;
-      const double f = values(p, {static_cast<int>(i)}).f[0];
+      const Values at = values(p, {static_cast<int>(i)});
+      if (!(at.f[0] < -kMet * system_.size)) continue;
+      // As far as the unknowns must go, not as large as the formula is written.
+      const double slope = at.jacobian.norm(), f = slope > 0 ? at.f[0] / slope : at.f[0];
       if (f < least) least = f, worst = static_cast<int>(i);
     }
     if (worst >= 0) {
       active_.push_back(worst);
+      newest_ = worst;
       return true;
     }
     // W dp = -J^T l: an inequality f >= 0 pushes along its gradient, l < 0.
@@ -265,6 +299,8 @@ class Solving {
   int n_;
   VectorXd start_, weights_, multipliers_;
   std::vector<int> active_;
+  int newest_ = -1;                   // the last inequality that became an equation
+  std::set<std::vector<int>> tried_;  // sets of equations
   std::map<int, bool> left_;  // inequalities that ceased to be equations once: each does so once, or it might go round
 };
 

@@ -20,6 +20,12 @@ class Constraints(ProgramTest):
         for a, b, least in (0.1, 2, 0.756703222589612), (0, 2, 0.875):
             self.assert_near(self.solved(["b = a^2"], a=a, b=b)["change"], least, 1e-8)
 
+    def test_inequalities_that_hold_together_are_met(self):
+        self.assert_near(self.solved(["10*a >= 10", "a >= 2"], a=0)["variables"]["a"], 2, 1e-12)
+        self.assert_near(self.solved(["10*a >= 10", "b >= a", "a >= 2"], a=0, b=0)["variables"]["b"], 2, 1e-12)
+        found = self.solved(["a >= 1", "b + a >= 3", "2*a + b >= 5", "b >= 3"], a=0, b=0)["variables"]
+        self.assert_near([found["a"], found["b"]], [1, 3], 1e-12)
+
 
 if __name__ == "__main__":
     unittest.main()
