@@ -18,8 +18,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kMostSteps = 60, kMostHalvings = 30;
-constexpr double kMet = 1e-11;        // of a residual, relative to the size
-constexpr double kStep = 1e-13;       // of the last step, relative to the size
+constexpr double kMet = 1e-11;   // of a residual, relative to the size
+constexpr double kStep = 1e-13;  // of the last step, relative to the size
+constexpr double kLongest = 2;   // of a step of least norm, relative to the size and the unknowns
+constexpr double kAside =
+    0.01;  // of the size: a step from where the conditions have no slope; at most that, as angles are unknowns too
 constexpr double kRank = 1e-9;        // of singular values
 constexpr double kDifference = 1e-6;  // of the unknowns, for second derivatives: they only steer the steps
 
@@ -93,7 +96,12 @@ class Solving {
       const auto keep = [&](const std::optional<Stationary>& one) {
         if (one && (!best || change(one->p) < change(best->p))) best = one;
       };
-      const auto [feasible, at] = least_norm(start_);
+      auto [feasible, at] = least_norm(start_);
+      // Where all ways look alike, as from a circle's centre, a step aside, the same each time.
+      if (!is_met(at.f) && !best) {
+        auto [other, there] = least_norm(aside(feasible));
+        if (is_met(there.f)) feasible = std::move(other), at = std::move(there);
+      }
       if (is_met(at.f))
         keep(lagrange(feasible));
       else if (!best)
@@ -139,6 +147,14 @@ class Solving {
       }
     }
     std::rethrow_exception(first);
+  }
+
+  VectorXd aside(VectorXd p) const {
+    for (int i = 0; i < n_; ++i) {
+      const double golden = 0.6180339887498949 * (i + 1);
+      p[i] += kAside * std::min(system_.size, 1.0) * (0.5 + golden - std::floor(golden));
+    }
+    return p;
   }
 
   // A direction in which the equations let the change fall; nothing where the change is least among its neighbours:
@@ -208,8 +224,9 @@ class Solving {
       Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(scaled);
       solver.setThreshold(kRank);
       const VectorXd by = inverse.cwiseSqrt().cwiseProduct(VectorXd(solver.solve(VectorXd(-at.f))));
-      double share = 1;
-      Values next = values(p + by, active_);
+      // A slope near none asks for any length.
+      double share = std::min(1.0, kLongest * (system_.size + p.norm()) / by.norm());
+      Values next = values(p + share * by, active_);
       for (int k = 0; k < kMostHalvings && !(next.f.norm() < at.f.norm()); ++k) {
         share /= 2;
         next = values(p + share * by, active_);

@@ -26,6 +26,15 @@ class Constraints(ProgramTest):
         found = self.solved(["a >= 1", "b + a >= 3", "2*a + b >= 5", "b >= 3"], a=0, b=0)["variables"]
         self.assert_near([found["a"], found["b"]], [1, 3], 1e-12)
 
+    def test_a_start_without_slope_is_no_contradiction(self):
+        self.assert_near(self.solved(["a^2 + b^2 = 4"], a=0, b=0)["change"], 2, 1e-9)
+        points = "  points: [{name: a, at: [0, 0]}, {name: b, at: [1, 0]}, {name: c, at: [1, 0]}, {name: d, at: [2, 0]}]\n"
+        fixed = [f"{{type: fixed, of: {name}}}" for name in "abc"]
+        found = self.json_of("solve", self.scene(fixed + ["{type: perpendicular, of: [a, b, c, d]}"], points))
+        self.assert_near(found["points"]["d"][0], 1, 1e-9)
+        self.scene(["{type: equation, is: 'a^2 = -1'}"], "  variables: [{name: a, start: 0}]\n")
+        self.assertIn("the conditions contradict each other", self.run_program("solve", "scene.yaml", code=SCENE_ERROR)[1])
+
 
 if __name__ == "__main__":
     unittest.main()
