@@ -36,6 +36,8 @@ std::string_view name(Category category) {
       return "helper";
     case Category::annotation:
       return "annotation";
+    case Category::quantity:
+      return "quantity";
     case Category::panel:
       return "panel";
   }

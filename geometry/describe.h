@@ -49,6 +49,7 @@ enum class Category {
   style,
   helper,
   annotation,
+  quantity,
   panel
 };
 std::string_view name(Category category);

@@ -64,12 +64,18 @@ A part of a picture, for
 .I PREFIX/share/lekalo/scenes
 Scenes that come with the program, found relative to it; also searched in
 .I lekalo/scenes
-of the folders of
-.BR $XDG_DATA_DIRS .
+of
+.B $XDG_DATA_HOME
+and of the folders of
+.BR $XDG_DATA_DIRS ,
+where models of your own may be kept.
 .SH ENVIRONMENT
 .TP
 .B SOURCE_DATE_EPOCH
 The date that outputs carry, instead of the clock, where one is asked for.
+.TP
+.B XDG_DATA_HOME
+Folder of your own data (default: ~/.local/share).
 .TP
 .B XDG_DATA_DIRS
 Folders of shared data (default: /usr/local/share:/usr/share).

@@ -172,6 +172,17 @@ std::vector<double> place_named(const render::LoadedScene& scene, const std::str
   throw UsageError(fmt::format("'{}' is no point: --position takes a point of the scene, X,Y,Z, or U,V", text));
 }
 
+// The value of a parameter of the scene; angles in radians.
+int print_parameter(const std::string& name, double value, bool json) {
+  const ordered_json out{{"name", name}, {"kind", "parameter"}, {"value", value}};
+  demand_finite(out);
+  if (json)
+    fmt::print("{}\n", out.dump(2));
+  else
+    fmt::print("parameter '{}'\nvalue              {}\n", name, digits(value));
+  return kDone;
+}
+
 int run(const Options& options) {
   if (options.tolerance && options.against.empty() && options.intersect.empty() && !options.self_intersection &&
       !options.continuity)
@@ -182,6 +193,9 @@ int run(const Options& options) {
     throw UsageError("--intersect stands once, or twice for the common points of three surfaces");
   if (options.nearest && options.to.empty()) throw UsageError("--nearest belongs to --to");
   const render::LoadedScene scene = render::load_scene(options.scene.file, options.scene.load_options());
+  const auto parameter = scene.model->parameters.find(options.name);
+  if (parameter != scene.model->parameters.end() && !scene.model->geometry.contains(options.name))
+    return print_parameter(options.name, parameter->second, options.json);
   const render::Entity& given = find_geometry(scene, options.name);
   // What asks for faces gets those of a solid that is put together; the plain measures ask for them themselves.
   const bool asks_for_faces = options.topology || !options.section.empty() || !options.silhouette.empty() ||

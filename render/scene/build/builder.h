@@ -238,6 +238,7 @@ class Builder {
   void solve_constraints();
 
   // --- builder_scene.cpp: sections to model.
+  std::optional<Quantity> measured(const Value& map);
   void check_sections();
   void build_named(Model& model);
   // Calls visit(name, built) for everything right in a named section.
@@ -286,7 +287,7 @@ class Builder {
   std::shared_ptr<const ConstraintReport> constraints_;
   std::deque<Value> made_;  // maps that `like` made
   std::map<const Value*, const Value*> liked_;
-  bool names_use_ = true;  // not those by which a named place says where it is: what it stands on is shown
+  bool names_use_ = true;  // not those by which a named place or a measured number says of what: it is shown
   std::vector<DefaultTaken> defaults_;
   CameraFactory scene_view_;  // of what it is given
   std::vector<ExternalNote> external_notes_;

@@ -49,10 +49,12 @@ const Scoped* Builder::named_place(const Value& name) {
   if (!name.is_scalar() || !values || !values->is_map()) return nullptr;
   const Named found = find_named(*values, name.text, name.place.file ? name.place.file->scope : "");
   if (!found.entry) return nullptr;
-  NamedThing& thing = sections_["geometry"].find(found.entry->key.name)->second;
+  const auto known = sections_["geometry"].find(found.entry->key.name);
+  if (known == sections_["geometry"].end()) return nullptr;
+  NamedThing& thing = known->second;
   for (NamedThing::Member& one : thing.members)
     if (one.name == found.member && is_place(*one.scoped.value)) {
-      thing.used = true;
+      thing.used = thing.used || names_use_;
       return &one.scoped;
     }
   return nullptr;
@@ -83,17 +85,23 @@ void Builder::declare_section(const char* name) {
                                                             : "write name: { type: ..., ... }");
     return;
   }
+  const auto is_family = [](const Entry& entry) { return entry.value.is_map() && entry.value.find("repeat"); };
   for (const Entry& entry : values->entries) {
+    if (is_family(entry)) continue;
     NamedThing& thing = things[entry.key.name];
     thing.entry = &entry;
-    if (entry.value.is_map() && entry.value.find("repeat")) {
-      thing.is_family = true;
-      repeat(entry.value, {}, [&](const Counters& counters, const std::string& member) {
-        thing.members.push_back({member, {&entry.value, counters}, NamedThing::Member::State::unknown, {}});
-      });
-    } else {
-      thing.members.push_back({"", {&entry.value, {}}, NamedThing::Member::State::unknown, {}});
-    }
+    thing.members.push_back({"", {&entry.value, {}}, NamedThing::Member::State::unknown, {}, {}});
+  }
+  // Their counts may be measured of single things.
+  for (const Entry& entry : values->entries) {
+    if (!is_family(entry)) continue;
+    NamedThing family;
+    family.entry = &entry;
+    family.is_family = true;
+    repeat(entry.value, {}, [&](const Counters& counters, const std::string& member) {
+      family.members.push_back({member, {&entry.value, counters}, NamedThing::Member::State::unknown, {}, {}});
+    });
+    things[entry.key.name] = std::move(family);
   }
 }
 
@@ -147,6 +155,7 @@ const Built* Builder::member(NamedThing& thing, NamedThing::Member& member, std:
   }
   if (member.state == State::unknown) {
     member.state = State::in_work;
+    const bool outer = std::exchange(names_use_, true);
     std::optional<Built> built;
     if (is_geometry(wanted.front()) && value.is_sequence()) {
       if (const auto point = read_coordinates(value, member.scoped.counters)) built = Built{Category::point, *point};
@@ -160,12 +169,12 @@ const Built* Builder::member(NamedThing& thing, NamedThing::Member& member, std:
     } else if (is_geometry(wanted.front()) && is_place(value)) {
       names_use_ = false;
       if (const auto point = read_place_on(value, member.scoped.counters)) built = Built{Category::point, *point};
-      names_use_ = true;
     } else if (is_geometry(wanted.front())) {
       built = build_typed(value, member.scoped.counters, geometry_categories());
     } else {
       built = build_typed(value, member.scoped.counters, wanted.first(1));
     }
+    names_use_ = outer;
     if (built) {
       member.built = *std::move(built);
       if (member.state == State::in_work) member.state = State::known;
@@ -249,8 +258,14 @@ std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<c
                                                   listed(geometry::nearest_names(*text, names, kMostNames)));
     return std::nullopt;
   }
-  NamedThing& thing = things->find(found.entry->key.name)->second;
-  thing.used = thing.used || std::exchange(names_use_, true);
+  const auto known = things->find(found.entry->key.name);
+  if (known == things->end()) {
+    diagnostics_.error(value.place, fmt::format("'{}' is a family that is not made yet", found.entry->key.name),
+                       "what is measured for the range of a 'repeat' is no member of a family");
+    return std::nullopt;
+  }
+  NamedThing& thing = known->second;
+  thing.used = thing.used || names_use_;
   std::vector<Built> result;
   std::string_view rest = found.member;
   bool matched = thing.is_family && rest.empty();  // a family may be empty

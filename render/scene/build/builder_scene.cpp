@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geometry/expression/nearest_name.h"
 #include "render/cameras/cameras.h"
@@ -57,6 +58,16 @@ Builder::Builder(const SceneDescription& scene, const BuildOptions& options, Dia
       misspelt_sections_(misspelt_sections(scene.root)),
       parameters_(section("parameters"), diagnostics) {
   merge_styles();
+  parameters_.measure_by([this](const Value& map) { return measured(map); });
+}
+
+// To measure a thing is no use of it: it is shown all the same.
+std::optional<Quantity> Builder::measured(const Value& map) {
+  static const Category wanted[] = {Category::quantity};
+  const bool outer = std::exchange(names_use_, false);
+  const auto built = build_typed(map, {}, wanted);
+  names_use_ = outer;
+  return built ? std::optional(std::any_cast<Quantity>(built->value)) : std::nullopt;
 }
 
 Model Builder::build() {

@@ -59,19 +59,26 @@ const Expression::Constant* Parameters::lookup(const std::string& name, std::str
   }
   if (parameter.state == State::unknown) {
     parameter.state = State::in_work;
-    const Value& value = parameter.entry->value;
     parameter.constant = {name, std::numeric_limits<double>::quiet_NaN(), Measure::plain, false};
-    if (const std::optional<Expression> expression = bind(value, {})) {
-      const std::optional<double> result = finish(value, *expression, (*expression)());
-      if (result) {
-        parameter.constant = {name, *result, expression->measure(), expression->holds_pi()};
-        if (parameter.state == State::in_work) parameter.state = State::known;
-      }
+    if (auto constant = evaluated(name, parameter.entry->value)) {
+      parameter.constant = *std::move(constant);
+      if (parameter.state == State::in_work) parameter.state = State::known;
     }
     if (parameter.state == State::in_work) parameter.state = State::wrong;
   }
   parameter.constant.name = name;
   return &parameter.constant;
+}
+
+std::optional<Expression::Constant> Parameters::evaluated(const std::string& name, const Value& value) {
+  if (value.is_map() && measuring_ && !value.invalid) {
+    const std::optional<Quantity> found = measuring_(value);
+    return found ? std::optional(Expression::Constant{name, found->value, found->measure, false}) : std::nullopt;
+  }
+  const std::optional<Expression> expression = bind(value, {});
+  const std::optional<double> result = expression ? finish(value, *expression, (*expression)()) : std::nullopt;
+  if (!result) return std::nullopt;
+  return Expression::Constant{name, *result, expression->measure(), expression->holds_pi()};
 }
 
 std::optional<Expression> Parameters::bind(const Value& value, const Counters& counters,

@@ -1,6 +1,7 @@
 // What names in formulas mean: counters of `repeat` around the place, then the scene's parameters.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "geometry/expression/expression.h"
+#include "render/scene/types/quantity.h"
 #include "render/scene/values/diagnostics.h"
 #include "render/scene/values/value.h"
 
@@ -29,6 +31,10 @@ class Parameters {
  public:
   // `section` may be null. It must outlive this object.
   Parameters(const Value* section, Diagnostics& diagnostics);
+
+  // Measures what a parameter asks of the geometry, { type: distance, ... }; nothing after an error, which it reports.
+  using Measuring = std::function<std::optional<Quantity>(const Value&)>;
+  void measure_by(Measuring measuring) { measuring_ = std::move(measuring); }
 
   // The formula of a scalar with all names replaced: counters, then parameters. Reports errors at the value and gives
   // nothing then. `variables` stay free.
@@ -64,8 +70,11 @@ class Parameters {
   const Expression::Constant* lookup(const std::string& name, std::string_view scope, const Value& asked);
   std::optional<double> finish(const Value& value, const Expression& expression, double result);
 
+  std::optional<Expression::Constant> evaluated(const std::string& name, const Value& value);
+
   const Value* section_;
   Diagnostics& diagnostics_;
+  Measuring measuring_;
   std::map<std::string, Parameter, std::less<>> parameters_;
 };
 

@@ -205,16 +205,17 @@ std::string page_of_sections() {
     text += fmt::format("\n## {}\n\n{}{}.\n", section.name, static_cast<char>(std::toupper(section.description[0])),
                         section.description.substr(1));
     using Shape = SectionDeclaration::Shape;
-    if (section.shape == Shape::named || section.shape == Shape::one_of || section.shape == Shape::things) {
+    if (!section.categories.empty()) {
       std::string pages;
       for (const Category category : section.categories) {
         if (type_names({&category, 1}).empty()) continue;
         pages += fmt::format("{}[{}]({}.md)", pages.empty() ? "" : ", ", plural(category), plural(category));
       }
       text += fmt::format("\n{}: {}.\n",
-                          section.shape == Shape::named    ? "A map of names to things"
-                          : section.shape == Shape::things ? "A list of"
-                                                           : "One of",
+                          section.shape == Shape::named     ? "A map of names to things"
+                          : section.shape == Shape::numbers ? "A map of names to numbers, formulas or quantities"
+                          : section.shape == Shape::things  ? "A list of"
+                                                            : "One of",
                           pages);
     }
     if (section.shape == Shape::list) text += "\nA list of maps, or one:\n";
@@ -291,6 +292,7 @@ std::string plural(Category category) {
   const std::string name(geometry::name(category));
   if (category == Category::body) return "bodies";
   if (category == Category::mesh) return "meshes";
+  if (category == Category::quantity) return "quantities";
   return name + "s";
 }
 

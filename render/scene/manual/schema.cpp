@@ -427,7 +427,7 @@ Json SchemaWriter::section(const SectionDeclaration& declared) {
     case Shape::one_of:
       return thing(declared.categories);
     case Shape::numbers:
-      return {{"type", "object"}, {"additionalProperties", ref("formula")}};
+      return {{"type", "object"}, {"additionalProperties", any_of({ref("formula"), thing(declared.categories)})}};
     case Shape::free:
       break;
   }

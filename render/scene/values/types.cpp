@@ -16,6 +16,7 @@ std::vector<TypeDeclaration> camera_types();
 std::vector<TypeDeclaration> integrator_types();
 std::vector<TypeDeclaration> helper_types();
 std::vector<TypeDeclaration> annotation_types();
+std::vector<TypeDeclaration> quantity_types();
 TypeDeclaration group_type();
 TypeDeclaration object_type();
 TypeDeclaration style_type();
@@ -29,7 +30,7 @@ const std::vector<TypeDeclaration>& all_types() {
   static const std::vector<TypeDeclaration> types = [] {
     std::vector<TypeDeclaration> all = geometry::geometry_types();
     for (auto family : {file_types, external_types, scene_types, material_types, texture_types, light_types,
-                        camera_types, integrator_types, helper_types, annotation_types}) {
+                        camera_types, integrator_types, helper_types, annotation_types, quantity_types}) {
       std::vector<TypeDeclaration> some = family();
       all.insert(all.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
     }

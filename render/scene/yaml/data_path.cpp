@@ -16,6 +16,11 @@ std::vector<std::filesystem::path> data_folders() {
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);  // resolved by the kernel
   if (!error) candidates.push_back(program.parent_path().parent_path() / "share/lekalo/scenes");
 
+  const auto value = [](const char* name) { return std::string(std::getenv(name) ? std::getenv(name) : ""); };
+  std::string personal = value("XDG_DATA_HOME");
+  if (!personal.starts_with('/') && value("HOME").starts_with('/')) personal = value("HOME") + "/.local/share";
+  if (personal.starts_with('/')) candidates.push_back(std::filesystem::path(personal) / "lekalo/scenes");
+
   const char* variable = std::getenv("XDG_DATA_DIRS");
   std::istringstream list(variable != nullptr && *variable != '\0' ? variable : "/usr/local/share:/usr/share");
   for (std::string folder; std::getline(list, folder, ':');)

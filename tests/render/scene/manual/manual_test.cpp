@@ -47,6 +47,8 @@ std::string scene_of(const TypeDeclaration& type, const std::string& example) {
       return "styles: { a: " + example + " }\n";
     case Category::panel:
       return kNamed + "panels: { a: " + example + " }\n";
+    case Category::quantity:
+      return kNamed + "parameters: { a: " + example + " }\n";
     case Category::annotation:
       return kNamed + "drawing: { annotations: [" + example + "] }\n";
     case Category::helper:
