@@ -21,6 +21,7 @@
 #include "job_list.h"
 #include "picture.h"
 #include "progress.h"
+#include "render/film/denoise.h"
 #include "render/image/image_error.h"
 #include "render/integrators/path.h"
 #include "render/trace/world.h"
