@@ -1,11 +1,20 @@
 // Built as the module lekalo_assimp, never into the library: the only file that includes assimp.
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/GltfMaterial.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <exception>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
 
 #include "render/mesh_files/model_file.h"
 
@@ -56,7 +65,7 @@ ModelMaterial material_of(const aiScene& scene, const aiMaterial& from) {
   if (const double index = number(from, AI_MATKEY_REFRACTI, 1.5); index > 1) to.index = index;  // OBJ: 1 if not given
   const Vec3 specular = color(from, AI_MATKEY_COLOR_SPECULAR, Vec3(1));
   to.shines = is_metal_rough || std::fmax(specular.x, std::fmax(specular.y, specular.z)) > 0;
-  to.emission = color(from, AI_MATKEY_COLOR_EMISSIVE, Vec3(0));
+  to.emission = number(from, AI_MATKEY_EMISSIVE_INTENSITY, 1) * color(from, AI_MATKEY_COLOR_EMISSIVE, Vec3(0));
   aiString alpha;
   if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, alpha) == AI_SUCCESS) {
     to.has_holes = std::string(alpha.C_Str()) != "OPAQUE";
@@ -109,12 +118,71 @@ void place(const aiNode& node, const aiMatrix4x4& above, FileModel& model) {
   for (unsigned i = 0; i < node.mNumChildren; ++i) place(*node.mChildren[i], here, model);
 }
 
+// assimp before 5.3 does not know how strongly glTF materials glow: the text with the strengths multiplied into their
+// colours; empty if it has none.
+std::string with_strong_emission(std::string_view text) {
+  constexpr const char* kExtension = "KHR_materials_emissive_strength";
+  if (text.find(kExtension) == std::string_view::npos) return "";
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(text, nullptr, false);
+  if (json.is_discarded() || !json.is_object() || !json.contains("materials")) return "";
+  for (auto& material : json["materials"]) {
+    if (!material.is_object() || !material.contains("extensions")) continue;
+    auto& extensions = material["extensions"];
+    if (!extensions.is_object() || !extensions.contains(kExtension)) continue;
+    const auto& strength = extensions[kExtension];
+    if (strength.is_object() && strength.contains("emissiveStrength") && strength["emissiveStrength"].is_number() &&
+        material.contains("emissiveFactor"))
+      for (auto& factor : material["emissiveFactor"])
+        if (factor.is_number()) factor = factor.get<double>() * strength["emissiveStrength"].get<double>();
+    extensions.erase(kExtension);
+  }
+  return json.dump();
+}
+
+// The same of a whole file. The binary form (glTF 2.0, 4.4): a head of 12 bytes with the length of all, then chunks,
+// each with its length and kind before it; the first is the text.
+std::string with_strong_emission_in(const std::string& file) {
+  constexpr size_t kHead = 12, kText = 20;
+  if (!file.starts_with("glTF")) return with_strong_emission(file);
+  uint32_t length = 0;
+  if (file.size() < kText) return "";
+  std::memcpy(&length, &file[kHead], 4);
+  if (length > file.size() - kText) return "";
+  std::string text = with_strong_emission(std::string_view(file).substr(kText, length));
+  if (text.empty()) return "";
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  std::string mended = file.substr(0, kText) + text + file.substr(kText + length);
+  const auto all = static_cast<uint32_t>(mended.size()), part = static_cast<uint32_t>(text.size());
+  std::memcpy(&mended[8], &all, 4);
+  std::memcpy(&mended[kHead], &part, 4);
+  return mended;
+}
+
+// The files of a model, of which the first is read with the strengths of its emission.
+class ModelFiles final : public Assimp::DefaultIOSystem {
+ public:
+  explicit ModelFiles(const char* path) : path_(path) {
+    if (!path_.ends_with(".gltf") && !path_.ends_with(".glb")) return;
+    std::ifstream stream(path_, std::ios::binary);
+    mended_ = with_strong_emission_in(std::string(std::istreambuf_iterator<char>(stream), {}));
+  }
+
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    if (mended_.empty() || path_ != file) return DefaultIOSystem::Open(file, mode);
+    return new Assimp::MemoryIOStream(reinterpret_cast<const uint8_t*>(mended_.data()), mended_.size());
+  }
+
+ private:
+  std::string path_, mended_;
+};
+
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) bool lekalo_assimp_read(const char* path, FileModel& model,
                                                                           std::string& error) {
   try {
     Assimp::Importer importer;
+    importer.SetIOHandler(new ModelFiles(path));  // which the importer deletes
     const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                                        aiProcess_SortByPType | aiProcess_ValidateDataStructure);
     if (!scene || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) || !scene->mRootNode) {

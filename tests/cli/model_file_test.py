@@ -105,6 +105,24 @@ objects: [{ shape: a, material: it }]""")
         for lane, other in ("R", "G"), ("G", "R"):
             self.assertGreater(sum(a > 0.3 > b for a, b in zip(planes[lane], planes[other])), 100)
 
+    def test_strength_of_emission(self):
+        """As text and as the binary form."""
+        text = gltf([{"mesh": 0}], {**matt(baseColorFactor=[0, 0, 0, 1]), "emissiveFactor": [0.5, 1, 0],
+                                    "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 3}}})
+        self.write("lit.gltf", text)
+        binary = json.loads(text)
+        data = base64.b64decode(binary["buffers"][0].pop("uri").split(",")[1])
+        text = json.dumps(binary).encode()
+        text += b" " * (-len(text) % 4)
+        (self.folder / "lit.glb").write_bytes(
+            struct.pack("<4sIIII", b"glTF", 2, 28 + len(text) + len(data), len(text), 0x4E4F534A) + text +
+            struct.pack("<II", len(data), 0x004E4942) + data)
+        for file in "lit.gltf", "lit.glb":
+            self.render(file)
+            planes = read_exr(self.bytes_of("picture.exr"))[1]
+            self.assert_near(max(planes["G"]) - max(planes["B"]), 3, 1e-4)
+            self.assert_near(max(planes["R"]) - max(planes["B"]), 1.5, 1e-4)
+
     def test_obj_with_its_library(self):
         self.write("part.mtl", "newmtl red\nKd 0.7 0.1 0.05\nNs 0\nillum 2\n")
         self.write("part.obj", "mtllib part.mtl\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nusemtl red\nf 1 2 3 4\n")
