@@ -17,6 +17,7 @@
 #include <string_view>
 
 #include "render/mesh_files/model_file.h"
+#include "render/mesh_files/stored_path.h"
 
 namespace {
 
@@ -158,7 +159,7 @@ std::string with_strong_emission_in(const std::string& file) {
   return mended;
 }
 
-// The files of a model, of which the first is read with the strengths of its emission.
+// The files of a model, of which the first is read with the strengths of its emission, others where they lie.
 class ModelFiles final : public Assimp::DefaultIOSystem {
  public:
   explicit ModelFiles(const char* path) : path_(path) {
@@ -168,7 +169,7 @@ class ModelFiles final : public Assimp::DefaultIOSystem {
   }
 
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (mended_.empty() || path_ != file) return DefaultIOSystem::Open(file, mode);
+    if (mended_.empty() || path_ != file) return DefaultIOSystem::Open(stored_path(file).c_str(), mode);
     return new Assimp::MemoryIOStream(reinterpret_cast<const uint8_t*>(mended_.data()), mended_.size());
   }
 

@@ -16,6 +16,7 @@
 #include "render/materials/textures.h"
 #include "render/mesh_files/mesh_files.h"
 #include "render/mesh_files/model_file.h"
+#include "render/mesh_files/stored_path.h"
 #include "render/model/model.h"
 
 namespace lekalo::render {
@@ -72,7 +73,7 @@ class Pictures {
 
  private:
   Image image(const ModelPicture& picture, SampleEncoding encoding) const {
-    if (picture.bytes.empty()) return read_image(folder_ / picture.file, encoding);
+    if (picture.bytes.empty()) return read_image(stored_path((folder_ / picture.file).string()), encoding);
     // The readers take files.
     std::string name = (fs::temp_directory_path() / "lekalo_picture_XXXXXX").string();
     const int file = ::mkstemp(name.data());

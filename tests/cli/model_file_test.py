@@ -90,6 +90,21 @@ objects: [{{ shape: a, material: {matter} }}, {{ shape: b, material: {matter} }}
 materials: { it: { type: principled, specular_roughness: 1, base_color: { type: image, file: colors.png, spacing: 2, offset: -1, interpolation: filtered } } }
 objects: [{ shape: a, material: it }]""")
 
+    def test_pictures_of_other_spelling(self):
+        """Spaces as %20, folders after \\."""
+        (self.folder / "sub").mkdir()
+        (self.folder / "sub" / "my red.png").write_bytes(png(1, 1, 8, [[255, 0, 0]]))
+        spelled = json.loads(gltf([{"mesh": 0}], matt(baseColorTexture={"index": 0}), [b"none"]))
+        spelled["images"] = [{"uri": "sub/my%20red.png"}]
+        self.write("spelled.gltf", json.dumps(spelled))
+        self.write("sub/part.mtl", "newmtl red\nmap_Kd sub\\my red.png\n")
+        self.write("part.obj", "mtllib sub\\part.mtl\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nvt 0 0\nusemtl red\nf 1/1 2/1 3/1\n")
+        for file in "spelled.gltf", "part.obj":
+            with self.subTest(file):
+                self.render(file, more=", up: z" if file == "part.obj" else "")
+                planes = read_exr(self.bytes_of("picture.exr"))[1]
+                self.assertGreater(max(planes["R"]), 3 * max(planes["G"]))
+
     def test_pictures_that_begin_alike(self):
         """Two of them, of the same first 5000 bytes."""
         red, green = png(1, 1, 8, [[255, 0, 0]]), png(1, 1, 8, [[0, 255, 0]])
