@@ -71,6 +71,7 @@ ModelMaterial material_of(const aiScene& scene, const aiMaterial& from) {
   if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, alpha) == AI_SUCCESS) {
     to.has_holes = std::string(alpha.C_Str()) != "OPAQUE";
     if (!to.has_holes) to.opacity = 1;
+    if (std::string(alpha.C_Str()) == "MASK") to.cutoff = number(from, AI_MATKEY_GLTF_ALPHACUTOFF, 0.5);
   }
   to.base_picture = first(picture(scene, from, aiTextureType_BASE_COLOR), picture(scene, from, aiTextureType_DIFFUSE));
   to.normal_picture = picture(scene, from, aiTextureType_NORMALS);

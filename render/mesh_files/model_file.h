@@ -23,6 +23,7 @@ struct ModelMaterial {
   geometry::Vec3 emission{0};
   bool shines = true;      // else it is matt
   bool has_holes = false;  // the alpha of base_picture counts
+  double cutoff = -1;      // >= 0: what is less opaque is not there, the rest is there fully
   ModelPicture base_picture, normal_picture, emission_picture, opacity_picture;
   ModelPicture metal_rough_picture;  // roughness in green, metalness in blue (glTF 2.0, 3.9.2)
 };

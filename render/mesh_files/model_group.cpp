@@ -53,6 +53,20 @@ class LaneTexture final : public Texture {
   float factor_;
 };
 
+// All or nothing of a grey one.
+class CutTexture final : public Texture {
+ public:
+  CutTexture(TexturePtr texture, double cutoff) : texture_(std::move(texture)), cutoff_(static_cast<float>(cutoff)) {}
+  Spectrum at(const SurfacePoint& point) const override {
+    const float value = texture_->at(point)[0] >= cutoff_ ? 1 : 0;
+    return {value, value, value};
+  }
+
+ private:
+  TexturePtr texture_;
+  float cutoff_;
+};
+
 TexturePtr lane(TexturePtr texture, int lane, double factor) {
   return std::make_shared<LaneTexture>(std::move(texture), lane, factor);
 }
@@ -128,7 +142,9 @@ MaterialPtr material_of(const ModelMaterial& from, Pictures& pictures) {
   if (from.base_picture.exists()) {
     Image image = pictures.read(from.base_picture, SampleEncoding::linear);
     if (std::optional<Image> mask = split_alpha(image); mask && from.has_holes) {
-      detail.opacity = lane(texture_of(std::move(*mask)), 0, from.opacity);
+      TexturePtr opacity = lane(texture_of(std::move(*mask)), 0, from.opacity);
+      if (from.cutoff >= 0) opacity = std::make_shared<CutTexture>(std::move(opacity), from.cutoff);
+      detail.opacity = std::move(opacity);
       detail.has_holes = true;
     }
     to.base_color = factored(texture_of(std::move(image)), from.base_color);
@@ -149,7 +165,7 @@ MaterialPtr material_of(const ModelMaterial& from, Pictures& pictures) {
     detail.normal_map = texture_of(pictures.read(from.normal_picture, SampleEncoding::raw));
   if (!detail.has_holes && (from.opacity < 1 || from.opacity_picture.exists())) {
     detail.has_holes = true;
-    detail.opacity = from.opacity;
+    detail.opacity = from.cutoff < 0 ? from.opacity : from.opacity >= from.cutoff ? 1 : 0;
     if (from.opacity_picture.exists())
       detail.opacity = lane(texture_of(pictures.read(from.opacity_picture, SampleEncoding::raw)), 0, from.opacity);
   }

@@ -120,6 +120,15 @@ objects: [{ shape: a, material: it }]""")
         for lane, other in ("R", "G"), ("G", "R"):
             self.assertGreater(sum(a > 0.3 > b for a, b in zip(planes[lane], planes[other])), 100)
 
+    def test_masks_are_all_or_nothing(self):
+        """Opacity 0.3 of the whole and 0.6 of a picture, cut at 0.5: none, all."""
+        mask = lambda **more: {**matt(**more), "alphaMode": "MASK"}
+        picture = png(1, 1, 8, [[255, 255, 255, 153]], 6)
+        for opacity, material in (0, mask(baseColorFactor=[1, 1, 1, 0.3])), (1, mask(baseColorTexture={"index": 0})):
+            self.write("mask.gltf", gltf([{"mesh": 0}], material, [picture]))
+            self.render("mask.gltf")
+            self.assert_near(read_exr(self.bytes_of("picture.exr"))[1]["G"][16 * 32 + 16], opacity, 0.2)
+
     def test_strength_of_emission(self):
         """As text and as the binary form."""
         text = gltf([{"mesh": 0}], {**matt(baseColorFactor=[0, 0, 0, 1]), "emissiveFactor": [0.5, 1, 0],

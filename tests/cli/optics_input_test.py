@@ -27,11 +27,11 @@ def chunk(name, data):
     return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
 
 
-def png(width, height, bits, rows):
-    """An RGB picture of rows of numbers."""
+def png(width, height, bits, rows, colors=2):
+    """A picture of rows of numbers: RGB, with `colors` 6 RGBA."""
     kind = ">%dH" if bits == 16 else ">%dB"
     raw = b"".join(b"\0" + struct.pack(kind % len(row), *row) for row in rows)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, 2, 0, 0, 0))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, colors, 0, 0, 0))
             + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
 
 
