@@ -115,7 +115,9 @@ MaterialPtr detailed(MaterialPtr plain, const Fields& f) {
     detail.opacity = color_texture(f, "opacity");
     detail.has_holes = true;
     if (plain->interior(Wavelengths{}))
-      throw FieldError("opacity", "a clear body has no opacity", "a mix with a thin material makes part of it opaque");
+      throw FieldError("opacity", "a clear body has no opacity",
+                       "leave it out: panes (dielectric, thin: true) have one; a mix with an opaque material makes "
+                       "part of a body opaque");
   }
   return with_surface_detail(std::move(plain), detail);
 }
@@ -141,8 +143,9 @@ TypeDeclaration with_surface_detail(TypeDeclaration type) {
                         {}},
                        {"strength", number().non_negative(), "multiplies their slopes", false, "1"}}),
                 "shaded by normals from a texture")
-      .optional("opacity", textured_share(),
-                "share of the surface that is there; light goes straight through the rest");
+      .optional(
+          "opacity", textured_share(),
+          "share of the surface that is there; light goes straight through the rest; not of clear bodies but of panes");
   return type.built_by(
       [plain = type.build](const Fields& f) { return detailed(std::any_cast<MaterialPtr>(plain(f)), f); });
 }

@@ -142,7 +142,10 @@ class OpticsInput(ProgramTest):
         self.assertIn("without a depth", self.complaint(material="{ type: principled, transmission_weight: 1, transmission_scatter: 1 }"))
 
     def test_holes_in_clear_bodies(self):
-        self.assertIn("clear body has no opacity", self.complaint(material="{ type: dielectric, opacity: 0.5 }"))
+        said = self.complaint(material="{ type: dielectric, opacity: 0.5 }")
+        self.assertIn("clear body has no opacity", said)
+        self.assertIn("thin: true", said)
+        self.render(material="{ type: dielectric, opacity: 0.5, thin: true }")
 
 
 if __name__ == "__main__":
