@@ -387,8 +387,14 @@ std::shared_ptr<const Caustics> trace_caustics(const World& world, const Caustic
       for (int i = run * kRun; i < std::min((run + 1) * kRun, options.photons); ++i)
         tracer.trace(static_cast<uint32_t>(i), landed[static_cast<size_t>(run)]);
   });
+  size_t count = 0;
+  for (const std::vector<Photon>& some : landed) count += some.size();
   std::vector<Photon> all;
-  for (const std::vector<Photon>& some : landed) all.insert(all.end(), some.begin(), some.end());
+  all.reserve(count);
+  for (std::vector<Photon>& some : landed) {
+    all.insert(all.end(), some.begin(), some.end());
+    some = {};
+  }
   auto caustics = std::make_shared<Caustics>(Caustics{PhotonMap(std::move(all)), {}});
   for (const LightPtr& lamp : world.lamps()) caustics->of_lamp.push_back(sends_photons(*lamp));
   return caustics;

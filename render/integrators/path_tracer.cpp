@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "render/integrators/caustics.h"
 #include "render/integrators/dispersion.h"
@@ -125,6 +127,7 @@ class PathTracer {
   const Caustics* caustics_;
   RaySample& sample_;
   LightParts* parts_;
+  std::vector<std::pair<const Photon*, Spectrum>> landed_;  // what add_caustic found, for the parts
   Spectrum first_matt_;  // share of matt lobes in what the first surface sends on of the path
   bool first_passed_ = false;
   bool has_backdrop_ = false;
@@ -305,16 +308,15 @@ double PathTracer::weight_of_glow(const SurfacePoint& point) const {
 
 void PathTracer::add_caustic(const Boundary& seen, const Bsdf& bsdf) {
   constexpr double kLeastCosine = 1e-3;
-  const auto each = [&](const auto& use) {
-    caustics_->photons.each_near(seen.point.position, seen.geometric_normal(),
-                                 [&](const Photon& photon, double density) {
-                                   const double cosine = std::fabs(glm::dot(photon.from, bsdf.normal()));
-                                   const auto factor = static_cast<float>(density / std::max(cosine, kLeastCosine));
-                                   use(photon, factor * (bsdf.evaluate(photon.from) * photon.power));
-                                 });
-  };
   Spectrum sum;
-  each([&](const Photon&, const Spectrum& light) { sum += light; });
+  landed_.clear();
+  caustics_->photons.each_near(seen.point.position, seen.geometric_normal(), [&](const Photon& photon, double density) {
+    const double cosine = std::fabs(glm::dot(photon.from, bsdf.normal()));
+    const auto factor = static_cast<float>(density / std::max(cosine, kLeastCosine));
+    const Spectrum light = factor * (bsdf.evaluate(photon.from) * photon.power);
+    sum += light;
+    if (parts_) landed_.emplace_back(&photon, light);
+  });
   if (sum.is_zero()) return;
   bounces_ += 2;  // of the lamp's light at least the mirror and this surface are behind it
   const Spectrum arriving = share_ * sum;
@@ -322,12 +324,12 @@ void PathTracer::add_caustic(const Boundary& seen, const Bsdf& bsdf) {
   sample_.radiance += clamped * arriving;
   bounces_ -= 2;
   if (!parts_) return;
-  each([&](const Photon& photon, const Spectrum& light) {
-    note_first(seen, bsdf, photon.from);
+  for (const auto& [photon, light] : landed_) {
+    note_first(seen, bsdf, photon->from);
     bounces_ += 2;
-    tell_parts(clamped * (share_ * light), photon.group, false);
+    tell_parts(clamped * (share_ * light), photon->group, false);
     bounces_ -= 2;
-  });
+  }
 }
 
 // Of all samples of all lamps together: the share of one sample alone would be that of what it meets, however little
