@@ -35,6 +35,18 @@ ModelPicture picture(const aiScene& scene, const aiMaterial& material, aiTexture
     found.file = std::string("picture.") + within->achFormatHint;
     found.bytes.assign(reinterpret_cast<const char*>(within->pcData), within->mWidth);
   }
+  aiUVTransform by;
+  if (material.Get(AI_MATKEY_UVTRANSFORM(type, 0), by) == AI_SUCCESS) {
+    // As KHR_texture_transform says it, with v downwards: offset + R(rotation) scale (u, v). assimp keeps the rotation
+    // negated, and the offset with a part of the others.
+    const double cosine = std::cos(by.mRotation), sine = -std::sin(by.mRotation);
+    const Vec2 scale(by.mScaling.x, by.mScaling.y);
+    const double right = by.mTranslation.x - scale.x / 2 * (1 + sine - cosine);
+    const double down = 1 - scale.y - by.mTranslation.y + scale.y / 2 * (sine + cosine - 1);
+    found.along_u = scale.x * Vec2(cosine, sine);
+    found.along_v = scale.y * Vec2(-sine, cosine);
+    found.shift = Vec2(right + sine * scale.y, 1 - down - cosine * scale.y);
+  }
   return found;
 }
 

@@ -12,6 +12,8 @@ namespace lekalo::render {
 struct ModelPicture {
   std::string file;   // its name; of one within the file only the ending counts
   std::string bytes;  // of a picture within the file, as stored: PNG, JPEG
+  // The place in the picture of the parameters u, v: along_u u + along_v v + shift.
+  geometry::Vec2 along_u{1, 0}, along_v{0, 1}, shift{0};
   bool exists() const { return !file.empty(); }
 };
 

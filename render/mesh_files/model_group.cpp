@@ -53,6 +53,32 @@ class LaneTexture final : public Texture {
   float factor_;
 };
 
+// A texture whose parameters are an affine image of those of the surface.
+class MovedTexture final : public Texture {
+ public:
+  MovedTexture(TexturePtr texture, const ModelPicture& by)
+      : texture_(std::move(texture)), along_u_(by.along_u), along_v_(by.along_v), shift_(by.shift) {}
+  Spectrum at(const SurfacePoint& point) const override { return texture_->at(moved(point)); }
+  uint64_t cell(const SurfacePoint& point) const override { return texture_->cell(moved(point)); }
+
+ private:
+  SurfacePoint moved(const SurfacePoint& point) const {
+    SurfacePoint there = point;
+    const Vec2 place = point.u * along_u_ + point.v * along_v_ + shift_;
+    there.u = place.x;
+    there.v = place.y;
+    const double det = along_u_.x * along_v_.y - along_u_.y * along_v_.x;
+    if (det != 0) {
+      there.du = (along_v_.y * point.du - along_u_.y * point.dv) / det;
+      there.dv = (along_u_.x * point.dv - along_v_.x * point.du) / det;
+    }
+    return there;
+  }
+
+  TexturePtr texture_;
+  Vec2 along_u_, along_v_, shift_;
+};
+
 // All or nothing of a grey one.
 class CutTexture final : public Texture {
  public:
@@ -108,11 +134,13 @@ class Pictures {
   std::map<std::pair<std::string, SampleEncoding>, Image> images_;
 };
 
-TexturePtr texture_of(Image image) {
+TexturePtr texture_of(Image image, const ModelPicture& picture) {
   ImageTexture texture;
   texture.image = std::move(image);
   texture.filtered = true;
-  return make_texture(texture);
+  const TexturePtr plain = make_texture(texture);
+  const bool moved = picture.along_u != Vec2(1, 0) || picture.along_v != Vec2(0, 1) || picture.shift != Vec2(0);
+  return moved ? std::make_shared<MovedTexture>(plain, picture) : plain;
 }
 
 // The picture's colours as if nothing of it were transparent, and its alpha as a grey; none where it has none.
@@ -142,15 +170,16 @@ MaterialPtr material_of(const ModelMaterial& from, Pictures& pictures) {
   if (from.base_picture.exists()) {
     Image image = pictures.read(from.base_picture, SampleEncoding::linear);
     if (std::optional<Image> mask = split_alpha(image); mask && from.has_holes) {
-      TexturePtr opacity = lane(texture_of(std::move(*mask)), 0, from.opacity);
+      TexturePtr opacity = lane(texture_of(std::move(*mask), from.base_picture), 0, from.opacity);
       if (from.cutoff >= 0) opacity = std::make_shared<CutTexture>(std::move(opacity), from.cutoff);
       detail.opacity = std::move(opacity);
       detail.has_holes = true;
     }
-    to.base_color = factored(texture_of(std::move(image)), from.base_color);
+    to.base_color = factored(texture_of(std::move(image), from.base_picture), from.base_color);
   }
   if (from.metal_rough_picture.exists()) {
-    const TexturePtr both = texture_of(pictures.read(from.metal_rough_picture, SampleEncoding::raw));
+    const TexturePtr both =
+        texture_of(pictures.read(from.metal_rough_picture, SampleEncoding::raw), from.metal_rough_picture);
     to.specular_roughness.texture = lane(both, 1, from.roughness);
     to.base_metalness.texture = lane(both, 2, from.metalness);
   }
@@ -159,15 +188,17 @@ MaterialPtr material_of(const ModelMaterial& from, Pictures& pictures) {
     to.emission_color = from.emission;
     if (from.emission_picture.exists())
       to.emission_color =
-          factored(texture_of(pictures.read(from.emission_picture, SampleEncoding::linear)), from.emission);
+          factored(texture_of(pictures.read(from.emission_picture, SampleEncoding::linear), from.emission_picture),
+                   from.emission);
   }
   if (from.normal_picture.exists())
-    detail.normal_map = texture_of(pictures.read(from.normal_picture, SampleEncoding::raw));
+    detail.normal_map = texture_of(pictures.read(from.normal_picture, SampleEncoding::raw), from.normal_picture);
   if (!detail.has_holes && (from.opacity < 1 || from.opacity_picture.exists())) {
     detail.has_holes = true;
     detail.opacity = from.cutoff < 0 ? from.opacity : from.opacity >= from.cutoff ? 1 : 0;
     if (from.opacity_picture.exists())
-      detail.opacity = lane(texture_of(pictures.read(from.opacity_picture, SampleEncoding::raw)), 0, from.opacity);
+      detail.opacity = lane(texture_of(pictures.read(from.opacity_picture, SampleEncoding::raw), from.opacity_picture),
+                            0, from.opacity);
   }
   if (from.transmission > 0) detail.has_holes = false;
   return with_surface_detail(make_material(to), detail);

@@ -120,6 +120,19 @@ objects: [{ shape: a, material: it }]""")
         for lane, other in ("R", "G"), ("G", "R"):
             self.assertGreater(sum(a > 0.3 > b for a, b in zip(planes[lane], planes[other])), 100)
 
+    def test_pictures_are_moved_as_told(self):
+        """KHR_texture_transform: only the green quarter is seen, by a turn too."""
+        colors = 4 * [4 * [255, 0, 0] + 4 * [0, 255, 0]] + 4 * [4 * [0, 0, 255] + 4 * [255, 255, 255]]
+        for told in ({"offset": [0.6, 0.1], "scale": [0.3, 0.25]},
+                     {"offset": [0.6, 0.4], "scale": [0.3, 0.2], "rotation": 1.5707963}):
+            texture = {"index": 0, "extensions": {"KHR_texture_transform": told}}
+            moved = json.loads(gltf([{"mesh": 0}], matt(baseColorTexture=texture), [png(8, 8, 8, colors)]))
+            self.write("moved.gltf", json.dumps({**moved, "extensionsUsed": ["KHR_texture_transform"]}))
+            self.render("moved.gltf")
+            planes = read_exr(self.bytes_of("picture.exr"))[1]
+            self.assertGreater(min(planes["G"]), 0.9)
+            self.assertLess(max(planes["R"] + planes["B"]), 0.3)
+
     def test_masks_are_all_or_nothing(self):
         """Opacity 0.3 of the whole and 0.6 of a picture, cut at 0.5: none, all."""
         mask = lambda **more: {**matt(**more), "alphaMode": "MASK"}
