@@ -233,9 +233,11 @@ GroupPtr group_of(FileModel model, const std::string& file, bool y_up) {
 }  // namespace
 
 TypeDeclaration model_type() {
-  TypeDeclaration type = declare(Category::group, "model",
-                                 "A model from a glTF or OBJ file, with its materials, pictures and copies. Materials "
-                                 "become `principled`, pictures are read from where the file says.");
+  TypeDeclaration type =
+      declare(Category::group, "model",
+              "A model from a glTF or OBJ file, with its materials, pictures and copies. Materials "
+              "become `principled`, pictures are read from where the file says. Bumps of OBJ files "
+              "(map_Bump) are left out, for their height has no unit; maps of normals (norm) count.");
   type.example("file: lamp.glb");
   return type.field("file", file(), "glTF (.gltf, .glb), OBJ, or what else assimp reads")
       .field("up", choice({"y", "z"}), "the file's axis that becomes z; glTF has y, OBJ files this or that", "y")
