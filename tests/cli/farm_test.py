@@ -60,7 +60,10 @@ class Farm(ProgramTest):
         self.part(3, 4, "--samples", "9")
         self.assertIn("parts of different pictures", self.run_program("merge", *parts, "ring.png.3of4.partial", code=USAGE)[1])
         self.write("song.partial", "half of a song")
-        self.assertIn("song.partial", self.run_program("merge", "song.partial", code=FILE_ERROR)[1])
+        for file in "song.partial", "lacking.partial":
+            said = self.run_program("merge", file, code=USAGE)[1]
+            self.assertIn(file, said)
+            self.assertIn("render --tile", said)
         self.part(3, 4)
         self.write("ring.yaml", SCENE + "# changed\n")
         self.assertIn("another scene", self.run_program("merge", *parts, "ring.png.3of4.partial", code=FILE_ERROR)[1])

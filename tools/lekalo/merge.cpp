@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "render/image/image_error.h"
 #include "render_command.h"
 
 namespace lekalo::command {
@@ -22,6 +23,15 @@ struct Part {
   std::string file;
   render::PartialHeader header;
 };
+
+Part read_part(const std::string& file) {
+  try {
+    return {file, render::read_partial_header(file)};
+  } catch (const render::ImageError& error) {
+    const std::string said = error.what();
+    throw UsageError(fmt::format("{} (make the part with render --tile)", said.substr(0, said.rfind(" ("))));
+  }
+}
 
 void check_is_of_same(const Part& part, const Part& first) {
   const render::PartialHeader &a = part.header, &b = first.header;
@@ -59,7 +69,7 @@ void check_parts(const std::vector<Part>& parts) {
 
 int merge(const Options& options) {
   std::vector<Part> parts;
-  for (const std::string& file : options.parts) parts.push_back({file, render::read_partial_header(file)});
+  for (const std::string& file : options.parts) parts.push_back(read_part(file));
   check_parts(parts);
   RenderCommand command = command_of(parts.front().header.job);
   if (!options.outputs.empty()) command.outputs = options.outputs;
