@@ -120,6 +120,14 @@ class Farm(ProgramTest):
         self.assertEqual(self.bytes_of("ring.png"), self.bytes_of("whole.png"))
         self.assertFalse((self.folder / "ring.png.partial").exists())
 
+    def test_other_settings_are_another_picture(self):
+        self.part(1, 2, "--samples", "1")
+        for options in (("--samples", "2"), ("--samples", "2", "--size", "60x40"), ("--samples", "2", "--representation", "mesh")):
+            self.assertNotIn("is there already", self.part(1, 2, "--skip-existing", *options))
+            self.assertIn("is there already", self.part(1, 2, "--skip-existing", *options))
+        self.part(2, 2, *options)
+        self.run_program("merge", "ring.png.1of2.partial", "ring.png.2of2.partial", "--quiet")
+
     def test_unfinished_part(self):
         self.write("ring.yaml", SCENE.replace("samples: 4", "samples: 20000"))
         run = subprocess.Popen([LEKALO, "render", "ring.yaml", "-o", "ring.png", "--tile", "1/1"], cwd=self.folder, stderr=subprocess.PIPE)

@@ -24,6 +24,7 @@
 #include "render/film/denoise.h"
 #include "render/image/image_error.h"
 #include "render/integrators/path.h"
+#include "render/materials/textured_color.h"
 #include "render/trace/world.h"
 #include "render_command.h"
 #include "watch.h"
@@ -215,24 +216,35 @@ std::string of_one_frame(const render::ParameterSetting& setting, const std::vec
   return change + " in place of --frames and -o,";
 }
 
-// Whether the work on that picture of this very scene was begun, and kept by this version of the program.
-bool is_begun(const std::string& partial, uint64_t identity) {
+// Of the scene and of all that the command changes of the picture.
+uint64_t identity_of(const Options& options, const render::LoadedScene& scene) {
+  const render::Film& film = scene.model->film;
+  uint64_t hash = scene.hash;
+  for (const int value :
+       {film.width, film.height, film.samples, film.crop.x0, film.crop.y0, film.crop.x1, film.crop.y1})
+    hash = render::hash_combine(hash, static_cast<uint64_t>(value));
+  for (const std::string& layer : render::film_layers())
+    hash = render::hash_combine(hash, render::keeps_layer(film, layer) ? 1 : 0);
+  for (const char letter : options.representation) hash = render::hash_combine(hash, static_cast<unsigned char>(letter));
+  return hash;
+}
+
+// What was kept of that very picture by this version of the program, if the work on it was begun.
+std::optional<render::PartialHeader> begun(const std::string& partial, uint64_t identity) {
   try {
-    return render::read_partial_header(partial).identity == identity;
+    const render::PartialHeader header = render::read_partial_header(partial);
+    return header.identity == identity ? std::optional(header) : std::nullopt;
   } catch (const render::ImageError&) {
-    return false;
+    return std::nullopt;
   }
 }
 
 // For --skip-existing. A picture that has a partial file beside it is not done.
 bool is_made(const std::vector<OutputFile>& outputs, const std::vector<OutputFile>& drawings,
-             const std::string& partial, const std::optional<render::PicturePart>& part, uint64_t identity) {
+             const std::string& partial, const std::optional<render::PicturePart>& part,
+             const std::optional<render::PartialHeader>& kept) {
   std::error_code ignored;
-  if (part) {
-    if (!is_begun(partial, identity)) return false;
-    const render::PartialHeader header = render::read_partial_header(partial);
-    return header.done == header.tiles_of_part();
-  }
+  if (part) return kept && kept->done == kept->tiles_of_part();
   const auto exists = [&](const OutputFile& file) { return std::filesystem::exists(file.path, ignored); };
   return !std::filesystem::exists(partial, ignored) && std::all_of(outputs.begin(), outputs.end(), exists) &&
          std::all_of(drawings.begin(), drawings.end(), exists);
@@ -260,13 +272,20 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   if (!partial.empty()) written.push_back(partial);
   check_inputs_stay(scene, written);
   if (!partial.empty()) check_is_ours(partial, render::kPartialMagic, "partial picture");
+  if (options.half) model->film.half_color = true;
+  if (!options.layers.empty()) model->film.layers = options.layers;
+  // Only OpenEXR files have room for more than colour.
+  if (std::none_of(outputs.begin(), outputs.end(), [](const OutputFile& f) { return f.path.ends_with(".exr"); }))
+    model->film.layers = {"color"};
+  const uint64_t identity = identity_of(options, scene);
   std::vector<std::string> resume = options.resume;
   if (options.skip_existing) {
-    if (is_made(outputs, drawn, partial, part, scene.hash)) {
+    const auto kept = partial.empty() ? std::nullopt : begun(partial, identity);
+    if (is_made(outputs, drawn, partial, part, kept)) {
       if (!options.quiet) fmt::print(stderr, "{}: is there already\n", part ? partial : written.front());
       return kDone;
     }
-    if (!partial.empty() && is_begun(partial, scene.hash)) resume = {partial};
+    if (kept) resume = {partial};
   }
   if (!options.quiet && first) {
     print_defaults(scene, !outputs.empty(), !drawn.empty());
@@ -293,12 +312,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
     draw_files(model, drawn, {.quiet = options.quiet, .stats = options.stats, .threads = options.engine.threads});
   if (outputs.empty()) return kDone;
   model->make_camera = nullptr;  // with what it knows of very many objects: no other picture is made of this model
-  if (options.half) model->film.half_color = true;
-  if (!options.layers.empty()) model->film.layers = options.layers;
   check_writable(outputs);
-  // Only OpenEXR files have room for more than colour.
-  if (std::none_of(outputs.begin(), outputs.end(), [](const OutputFile& f) { return f.path.ends_with(".exr"); }))
-    model->film.layers = {"color"};
   const auto instants = static_cast<int>(run.instants.size());
   for (const char* mattes : {"cryptomatte_object", "cryptomatte_material"})
     if (instants > 1 && render::keeps_layer(model->film, mattes))
@@ -317,7 +331,7 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   settings.threads = options.engine.threads;
   settings.stop = &stop_tracing;
   settings.progress = [&](double done, uint64_t rays) { progress(done, rays); };
-  settings.identity = scene.hash;
+  settings.identity = identity;
   if (instants == 1) settings.partial_file = partial;
   settings.warning = [](const std::string& reason) {
     fmt::print(stderr, "warning: what is done cannot be kept for --resume: {}\n", reason);
