@@ -70,6 +70,10 @@ class Farm(ProgramTest):
         for wrong in "0/4", "5/4", "1", "a/b", "1/4/2":
             self.assertIn("--tile takes", self.run_program("render", "ring.yaml", "--tile", wrong, code=USAGE)[1])
 
+    def test_drawings_have_no_parts(self):
+        self.write("drawn.yaml", SCENE + "outputs: d.svg\n")
+        self.assertIn("are drawings", self.run_program("make", "drawn.yaml", "--tile", "1/2", code=USAGE)[1])
+
     def test_only_some_frames(self):
         frames = ["render", "ring.yaml", "--size", "24x16", "--quiet", "--frames", "r=0.1..0.5:12"]
         self.run_program(*frames, "-o", "all.png")

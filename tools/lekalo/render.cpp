@@ -264,6 +264,8 @@ int render_frame(Run& run, const Frame& frame, bool first) {
   const auto drawings = std::stable_partition(outputs.begin(), outputs.end(),
                                               [](const OutputFile& file) { return file.kind == "render"; });
   const std::optional<render::PicturePart> part = parse_part(options.tile);
+  if (part && drawings == outputs.begin())
+    throw UsageError("--tile makes a part of a picture, and all outputs of this scene are drawings: leave it out");
   std::vector<std::string> written;
   for (const OutputFile& file : outputs) written.push_back(file.path);
   const std::vector<OutputFile> drawn(drawings, outputs.end());
