@@ -186,6 +186,7 @@ image: { size: [60 mm, 40 mm] }
         self.assertIn("--latex", self.run_program("draw", "block.yaml", "--latex", "-o", "a.tikz", code=USAGE)[1])
         self.assertIn("# %", self.run_program("draw", "block.yaml", "-o", "a#.tikz", code=USAGE)[1])
         self.write("mine.tex", "\\documentclass{article}")
+        self.assertIn("is for tikz", self.run_program("draw", "block.yaml", "--standalone", "-o", "a.svg", code=USAGE)[1])
         self.assertIn("is no TikZ picture", self.run_program("draw", "block.yaml", "--standalone", "-o", "mine.tex", code=USAGE)[1])
         self.run_program("draw", "block.yaml", "-o", "no/a.tikz", code=FILE_ERROR)
         self.write("block.yaml", (self.folder / "block.yaml").read_text().replace("slant", "'aǎ'"))

@@ -93,6 +93,9 @@ int draw(const Options& options) {
     outputs.push_back(
         {std::filesystem::path(options.scene.file).stem().string() + (options.settings.latex ? ".pdf" : ".svg"),
          "drawing"});
+  if (options.settings.standalone &&
+      std::none_of(outputs.begin(), outputs.end(), [](const auto& file) { return is_tikz(file.path); }))
+    throw UsageError(fmt::format("'{}': --standalone is for tikz and tex files", outputs.front().path));
   if (options.width > 0)
     for (render::OutputFile& file : outputs) file.width = options.width;
   check_overwriting(scene, outputs, options.settings.latex);
