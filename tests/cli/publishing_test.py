@@ -51,6 +51,8 @@ class JobList(Publishing):
             self.write("jobs", line + "\n")
             self.assertIn(expected, self.run_program("make", "--list", "jobs", code=USAGE)[1])
         self.assertIn("nothing", self.run_program("make", "--list", "nothing", code=FILE_ERROR)[1])
+        self.write("jobs", "make --list jobs -o x.png\n")
+        self.assertIn("jobs:1: a list", self.run_program("make", "--list", "jobs", code=USAGE)[1])
         self.run_program("make", code=USAGE)
         self.run_program("make", "ring.yaml", "--list", "jobs", code=USAGE)
 

@@ -54,6 +54,9 @@ Job job_of(const std::string& line, const std::string& place) {
   const std::string& command = job.words.front();
   if (command != "draw" && command != "render" && command != "make")
     throw UsageError(fmt::format("{}: expected draw, render or make, found '{}'", place, command));
+  for (const std::string& word : job.words)
+    if (word == "--list" || word.starts_with("--list="))
+      throw UsageError(fmt::format("{}: a list makes no other list: put its lines here", place));
   for (size_t i = 0; i + 1 < job.words.size(); ++i)
     if (job.words[i] == "-o" || job.words[i] == "--output") job.outputs.push_back(job.words[i + 1]);
   if (job.outputs.empty()) throw UsageError(fmt::format("{}: the command has no -o FILE", place));
