@@ -157,7 +157,7 @@ int run(const Options& options) {
   for (const std::string& note : collection.left_out()) fmt::print(stderr, "note: {}\n", note);
   const bool has_lines = format == render::MeshFormat::obj && !collection.lines().empty();
   if (!has_lines && !collection.lines().empty())
-    fmt::print(stderr, "note: curves are left out: only OBJ files hold polylines\n");
+    fmt::print(stderr, "note: curves are left out: only OBJ and glTF files hold lines\n");
   if (mesh.triangles.empty() && !has_lines)
     throw UsageError("there is nothing to export: no surface, body, mesh or (to OBJ) curve is shown");
   std::string bytes = render::mesh_bytes(format, mesh);
