@@ -93,8 +93,8 @@ void add_farm(CLI::App& app, Action& action) {
       "Examples:\n"
       "  lekalo farm slurm ring.yaml --frames tube=0.1..0.5:24 -o ring.png | sh\n"
       "  lekalo farm slurm ring.yaml --tiles 8 -o ring.exr | sh\n"
-      "  lekalo farm list ring.yaml --tiles 8 -o ring.exr | parallel && $(lekalo farm list ring.yaml --tiles 8 -o "
-      "ring.exr --merge)\n\n"
+      "  lekalo farm list ring.yaml --tiles 8 -o ring.exr | parallel && lekalo farm list ring.yaml --tiles 8 -o "
+      "ring.exr --merge | sh\n\n"
       "slurm: a script that submits an array of tasks, with --tiles also a merge that waits for them. list: one "
       "command\n"
       "a line for any other scheduler. A task that is started again goes on where it was.");
