@@ -415,7 +415,7 @@ void add_view(Model model, const Vec2& at, Vec2 size, bool panel, const FigureOp
     grow(room + taken - size);
     model.camera = camera_for(room);
   }
-  if (!graph && model.camera_frames && !model.drawing.annotations.empty()) {
+  if (!graph && model.camera_frames && !(model.drawing.annotations.empty() && model.drawing.title.empty())) {
     const Vec2 before = room;
     CameraPtr camera = camera_with_room(model, room, grows_down, per_pixel);
     if (grows_down && room.y < least.y) {

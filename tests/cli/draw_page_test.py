@@ -745,6 +745,11 @@ outputs: [a.svg, { file: c.svg, panel: c }]
         errors = self.drawn(scene)[1]
         self.assertIn("note: not in the drawing: the panel 'b', which `rows` of the layout do not name\n", errors)
 
+    def test_titles_have_room(self):
+        views = CIRCLE.replace("60 mm], margin: 4 mm", "auto]") + ("panels: { a: { title: One }, b: { title: Two } }\n"
+                                                                   "layout: { rows: [[a], [b]] }\n")
+        self.assertNotIn("over the page", self.drawn(views)[1])
+
     def test_texts_beyond_the_page(self):
         """What goes over an edge is named, with what has room for it; what a graph places itself stays on the page."""
         def warnings(margin, *annotations):
