@@ -29,17 +29,20 @@ HiddenLines hidden_of(const Fields& fields) {
 
 namespace {
 
+Field of_style(const char* default_style) {
+  return {"style", reference({Category::style}), "of these lines", false, default_style};
+}
+
+Field own_hidden() {
+  return {
+      "hidden", hidden_lines(), "what becomes of these lines behind something, instead of `hidden` of all", false, {}};
+}
+
 // A style, or { style: thick, hidden: dashed }.
-FieldType style_of_kind() {
+Field kind_of_lines(const char* name, const char* description, const char* default_style) {
   FieldType type = reference({Category::style});
-  type.fields = std::make_shared<const std::vector<Field>>(
-      std::vector<Field>{{"style", reference({Category::style}), "of these lines", true, {}},
-                         {"hidden",
-                          hidden_lines(),
-                          "what becomes of these lines behind something, instead of `hidden` of all",
-                          false,
-                          {}}});
-  return type;
+  type.fields = std::make_shared<const std::vector<Field>>(std::vector<Field>{of_style(default_style), own_hidden()});
+  return {name, type, description, false, default_style};
 }
 
 void read_kind(const Fields& fields, const std::string& kind, Lines& lines) {
@@ -56,22 +59,16 @@ void read_kind(const Fields& fields, const std::string& kind, Lines& lines) {
 }  // namespace
 
 std::vector<Field> lines_fields() {
-  const FieldType style = style_of_kind();
-  const auto of_style = [&](const char* default_style) {
-    return Field{"style", reference({Category::style}), "of these lines", false, default_style};
-  };
-  const Field hidden{
-      "hidden", hidden_lines(), "what becomes of these lines behind something, instead of `hidden` of all", false, {}};
   return {
-      {"boundary", style, "borders of a surface; drawn where given, like all kinds of lines", false, "thick"},
-      {"sharp", style, "edges where faces of a body, or smooth pieces of a surface, meet at an angle", false, "thick"},
-      {"smooth", style, "edges of a body where faces meet smoothly", false, "thin"},
-      {"silhouette", style, "where a surface turns away from the viewer", false, "thick"},
+      kind_of_lines("boundary", "borders of a surface; drawn where given, like all kinds of lines", "thick"),
+      kind_of_lines("sharp", "edges where faces of a body, or smooth pieces of a surface, meet at an angle", "thick"),
+      kind_of_lines("smooth", "edges of a body where faces meet smoothly", "thin"),
+      kind_of_lines("silhouette", "where a surface turns away from the viewer", "thick"),
       {"parameter",
        group({{"at_u", counts(), "lines u = const: how many, or where", false, {}},
               {"at_v", counts(), "lines v = const: how many, or where", false, {}},
               of_style("hairline"),
-              hidden}),
+              own_hidden()}),
        "parameter lines of surfaces, faces, tubes and balls, and of what is put together of them",
        false,
        {}},
@@ -84,7 +81,7 @@ std::vector<Field> lines_fields() {
                true,
                {}},
               of_style("thin"),
-              hidden}),
+              own_hidden()}),
        "curves in which planes cut the object",
        false,
        {}},
@@ -95,12 +92,12 @@ std::vector<Field> lines_fields() {
                true,
                {}},
               of_style("thin"),
-              hidden}),
+              own_hidden()}),
        "curves in which other things meet the object",
        false,
        {}},
-      {"self_intersection", style, "where a surface goes through itself", false, "thin"},
-      {"curve", style, "the curve itself", false, "thick"},
+      kind_of_lines("self_intersection", "where a surface goes through itself", "thin"),
+      kind_of_lines("curve", "the curve itself", "thick"),
       {"hidden", hidden_lines(), "what becomes of lines behind something: show, drop, dashed, thin, faded, or a style",
        false, "drop"},
       {"hidden_layers",

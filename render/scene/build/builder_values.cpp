@@ -229,7 +229,9 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
     }
     case Kind::reference: {
       // A style with what goes with it: { style: thick, hidden: dashed }.
-      if (type.fields && value.is_map() && value.find("style")) return read_group(type, value, counters, "this map");
+      if (type.fields && value.is_map() &&
+          std::ranges::any_of(*type.fields, [&](const Field& field) { return value.find(field.name) != nullptr; }))
+        return read_group(type, value, counters, "this map");
       // A slip in one of the words, where nothing has that name.
       if (value.is_scalar() && !suggestion(value.text, type.choices).empty()) {
         const Value* names = section(section_of(type.categories.front()));

@@ -89,8 +89,9 @@ TEST(Lines, WhatIsGivenIsDrawn) {
                         "      hidden: faded\n"
                         "  - { shape: r, lines: {} }\n"
                         "  - { shape: r, lines: { hidden: hairline } }\n"
-                        "  - { shape: r }\n");
-  ASSERT_EQ(m.objects.size(), 5u);
+                        "  - { shape: r }\n"
+                        "  - { shape: r, lines: { curve: { hidden: thin } } }\n");
+  ASSERT_EQ(m.objects.size(), 6u);
   const Lines& lines = *m.objects[0].look->lines;
   EXPECT_EQ(lines.styles.size(), 6u);
   EXPECT_EQ(lines.styles.at("boundary").name, "net");
@@ -109,6 +110,9 @@ TEST(Lines, WhatIsGivenIsDrawn) {
   EXPECT_TRUE(m.objects[2].look->lines->styles.empty());
   EXPECT_EQ(m.objects[3].look->lines->hidden.way, HiddenLines::Way::styled);
   EXPECT_EQ(m.objects[3].look->lines->hidden.style.name, "hairline");
+  // What becomes of a kind's hidden lines may be said without their style.
+  EXPECT_EQ(m.objects[5].look->lines->styles.at("curve").name, "thick");
+  EXPECT_EQ(m.objects[5].look->lines->own_hidden.at("curve").way, HiddenLines::Way::thin);
   // Without lines of its own an object has those of the drawing.
   EXPECT_EQ(m.objects[4].look, nullptr);
   EXPECT_EQ(m.drawing.lines.styles.size(), 4u);
