@@ -5,6 +5,7 @@
 #include <mutex>
 #include <span>
 
+#include "geometry/box_corners.h"
 #include "geometry/queries/closest/position.h"
 #include "geometry/shapes/csg/body_shape.h"
 #include "geometry/shapes/csg/csg.h"
@@ -70,9 +71,8 @@ class Kept {
 
 void add_corners(const Box3& box, const Affine& map, Kept points) {
   if (box.empty() || !box.bounded()) return;
-  const auto corner = [&](int i) {
-    return map.point({i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y, i & 4 ? box.hi.z : box.lo.z});
-  };
+  const auto all = corners(box);
+  const auto corner = [&](int i) { return map.point(all[static_cast<size_t>(i)]); };
   for (int i = 0; i < 8; ++i) points.add(corner(i));
   for (int i = 0; i < 8; ++i)
     for (const int axis : {1, 2, 4})

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "geometry/bodies/primitives/primitives.h"
+#include "geometry/box_corners.h"
 #include "geometry/shapes/csg/body_shape.h"
 #include "geometry/shapes/csg/csg.h"
 #include "geometry/shapes/csg/half_space.h"
@@ -27,13 +28,6 @@ ShapePtr solid_of(const Object& object) {
     return (*body)->is_closed() ? std::make_shared<BodyShape>(*body) : nullptr;
   const auto* shape = std::get_if<ShapePtr>(&object.shape);
   return shape && (*shape)->is_closed() ? *shape : nullptr;
-}
-
-std::vector<Vec3> corners(const Box3& box) {
-  std::vector<Vec3> all;
-  for (int k = 0; k < 8; ++k)
-    all.emplace_back(k & 1 ? box.hi.x : box.lo.x, k & 2 ? box.hi.y : box.lo.y, k & 4 ? box.hi.z : box.lo.z);
-  return all;
 }
 
 // The frame of a stepped section: its line lies in the x-y plane, y is the side that is taken away.

@@ -13,6 +13,7 @@
 #include <unordered_map>
 
 #include "geometry/bodies/topology/sew.h"
+#include "geometry/box_corners.h"
 #include "geometry/queries/rays/line_intersections.h"
 #include "geometry/tessellation/tessellate.h"
 #include "geometry/tolerances.h"
@@ -171,11 +172,8 @@ struct World::Compiled {
   double min_cell(const geometry::Box3& box, const Affine& to_world) const {
     if (!camera || box.empty() || !box.bounded()) return 0;
     double pixel = camera->pixel_size(to_world.point(box.center()));
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 at(corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
-                    corner & 4 ? box.hi.z : box.lo.z);
-      pixel = std::min(pixel, camera->pixel_size(to_world.point(at)));
-    }
+    for (const Vec3& corner : geometry::corners(box))
+      pixel = std::min(pixel, camera->pixel_size(to_world.point(corner)));
     const double side = std::sqrt(kMinCell) * pixel / geometry::operator_norm_bound(to_world);
     return side > 0 ? side * side : 0;
   }

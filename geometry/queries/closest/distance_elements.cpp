@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/box_corners.h"
 #include "geometry/curves/operations/parameter_line.h"
 #include "geometry/curves/operations/smooth_pieces.h"
 #include "geometry/queries/closest/face_adjacency.h"
@@ -310,9 +311,8 @@ class Gathering {
 // What of an unbounded plane can be nearest to a thing in the box: the foot points of its points, and a border around.
 Rectangle cut_near(const Plane& plane, const Box3& box) {
   Rectangle cut{{kInfinity, -kInfinity}, {kInfinity, -kInfinity}};
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 local = plane.frame().to_local_point(
-        {corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z});
+  for (const Vec3& corner : corners(box)) {
+    const Vec3 local = plane.frame().to_local_point(corner);
     cut = {hull(cut.u, Interval(local.x)), hull(cut.v, Interval(local.y))};
   }
   const double more = std::max(box.diameter(), 1e-3 * glm::length(box.center() - plane.frame().origin)) + 1e-300;

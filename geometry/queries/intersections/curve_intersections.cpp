@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "geometry/box_corners.h"
 #include "geometry/curves/operations/parameter_line.h"
 #include "geometry/queries/closest/closest_point.h"
 #include "geometry/queries/implicit_curves/smooth_parts.h"
@@ -256,9 +257,8 @@ class CurveAndSurface {
     const auto* plane = dynamic_cast<const Plane*>(&surface_);
     if (!plane) throw std::invalid_argument("the surface is unbounded: give it a domain to intersect");
     Interval u{kInfinity, -kInfinity}, v = u;
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 local = plane->frame().to_local_point(
-          {corner & 1 ? box_.hi.x : box_.lo.x, corner & 2 ? box_.hi.y : box_.lo.y, corner & 4 ? box_.hi.z : box_.lo.z});
+    for (const Vec3& corner : corners(box_)) {
+      const Vec3 local = plane->frame().to_local_point(corner);
       u = hull(u, Interval(local.x));
       v = hull(v, Interval(local.y));
     }

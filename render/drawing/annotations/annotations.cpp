@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 
+#include "geometry/box_corners.h"
 #include "render/drawing/annotations/annotation_work.h"
 #include "render/drawing/annotations/center_lines.h"
 #include "render/drawing/annotations/color_bar.h"
@@ -193,9 +194,8 @@ void add_title(const View& view, LineWork& lines, PageWork& page) {
   if (view.model.drawing.title.empty()) return;
   SheetBox box;
   const Box3 shown = bounds(view.model);
-  for (int k = 0; k < 8 && shown.bounded() && !shown.empty(); ++k)
-    box.include(view.place(
-        Vec3(k & 1 ? shown.hi.x : shown.lo.x, k & 2 ? shown.hi.y : shown.lo.y, k & 4 ? shown.hi.z : shown.lo.z)));
+  if (shown.bounded() && !shown.empty())
+    for (const Vec3& corner : corners(shown)) box.include(view.place(corner));
   if (!(box.lo.x < box.hi.x)) return;
   double top = box.lo.y;
   for (const Label& label : page.labels) top = std::min(top, label.at.y - label.text.ascent);

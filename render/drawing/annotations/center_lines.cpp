@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "geometry/bodies/topology/landmarks.h"
+#include "geometry/box_corners.h"
 #include "geometry/curves/analytic/circle.h"
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/operations/parameter_line.h"
@@ -131,10 +132,8 @@ void add_faces(const Object& object, const Affine& to_world, std::vector<RoundFa
   // Tools are longer than what they cut.
   for (RoundFace& face : found) {
     Interval inside(kInfinity, -kInfinity);
-    for (int k = 0; k < 8; ++k) {
-      const Vec3 corner(k & 1 ? box.hi.x : box.lo.x, k & 2 ? box.hi.y : box.lo.y, k & 4 ? box.hi.z : box.lo.z);
+    for (const Vec3& corner : corners(box))
       inside = hull(inside, Interval(glm::dot(corner - face.axis.through, face.axis.along)));
-    }
     face.along = {std::max(face.along.lo, inside.lo), std::min(face.along.hi, inside.hi)};
     if (face.along.width() > 0 && !(cut && is_taken_away(face, *cut->operands().back(), from_world)))
       faces.push_back(face);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "geometry/box_corners.h"
 #include "render/drawing/annotations/page_shapes.h"
 #include "render/model/section.h"
 
@@ -55,10 +56,7 @@ CuttingLine line_of(const Section& section, const Vec3& sight, const Box3& box) 
 // How far along a line from `from` what is shown goes.
 double reach_of(const View& view, const Box3& box, const Vec2& from, const Vec2& way) {
   double reach = 0;
-  for (int k = 0; k < 8; ++k) {
-    const Vec3 corner(k & 1 ? box.hi.x : box.lo.x, k & 2 ? box.hi.y : box.lo.y, k & 4 ? box.hi.z : box.lo.z);
-    reach = std::max(reach, glm::dot(view.place(corner) - from, way));
-  }
+  for (const Vec3& corner : corners(box)) reach = std::max(reach, glm::dot(view.place(corner) - from, way));
   return reach;
 }
 
