@@ -750,6 +750,11 @@ outputs: [a.svg, { file: c.svg, panel: c }]
                                                                    "layout: { rows: [[a], [b]] }\n")
         self.assertNotIn("over the page", self.drawn(views)[1])
 
+    def test_narrow_columns(self):
+        self.write("scene.yaml", CIRCLE + "panels: { a: {}, b: {} }\nlayout: { rows: [[a, b]], columns: [1, 0.001] }\n")
+        said = self.run_program("draw", "scene.yaml", "-o", "scene.svg", code=SCENE_ERROR)[1]
+        self.assertIn("of the `columns` of the layout the narrowest has 0.0", said)
+
     def test_texts_beyond_the_page(self):
         """What goes over an edge is named, with what has room for it; what a graph places itself stays on the page."""
         def warnings(margin, *annotations):

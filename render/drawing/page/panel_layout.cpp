@@ -24,7 +24,7 @@ constexpr double kFree = 1.5;   // millimetres around what a panel shows
 constexpr int kTrial = 1000;    // pixels of cameras by which sizes are found
 constexpr double kTallest = 3;  // times its width: pictures whose height is found
 constexpr double kRounding = 1e-6;
-constexpr double kMinRoom = 1;  // millimetres for what is shown beside its annotations
+constexpr double kMinRoom = 1;  // millimetres of a panel, and for what is shown beside its annotations
 constexpr const char* kAnchorFields[] = {"at", "from", "to"};
 
 double millimetres_of(const std::string& unit) {
@@ -396,10 +396,18 @@ PanelLayout panel_layout(const Model& page, const std::string& only) {
     layout.height = 2 * margin + gap * static_cast<double>(rows.size() - 1);
     for (const double height : heights) layout.height += height;
   }
-  if (!(*std::min_element(widths.begin(), widths.end()) > 1) ||
-      !(*std::min_element(heights.begin(), heights.end()) > 1))
+  const double narrowest = *std::min_element(widths.begin(), widths.end());
+  const double mean =
+      (layout.width - 2 * margin - gap * static_cast<double>(columns - 1)) / static_cast<double>(columns);
+  const Place& place = page.layout.gap_place.file && gap > margin ? page.layout.gap_place : page.paper.margin_place;
+  if (!(narrowest > kMinRoom) && mean > kMinRoom)
+    does_not_fit(place,
+                 fmt::format("of the `columns` of the layout the narrowest has {:.3f} mm on {}", narrowest,
+                             page_in_words(page.paper, layout.width, layout.height)),
+                 "a larger share of the width for it");
+  if (!(narrowest > kMinRoom) || !(*std::min_element(heights.begin(), heights.end()) > kMinRoom))
     does_not_fit(
-        page.layout.gap_place.file && gap > margin ? page.layout.gap_place : page.paper.margin_place,
+        place,
         fmt::format("margins and gaps leave no room for {} panel{} in a row and {} in a column on {}", columns,
                     columns == 1 ? "" : "s", rows.size(), page_in_words(page.paper, layout.width, layout.height)),
         "smaller ones, or a larger `size` of the image");
