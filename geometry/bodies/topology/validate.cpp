@@ -225,29 +225,40 @@ class Validation {
     const double side = face.forward == (face.surface->normal_sign() > 0) ? 1 : -1;
     const std::vector<Vec2> outer = polygon(face.loops[0]);
     if (!(side * signed_area(outer) > 0)) report("an outer loop has its face on the left", face_name(index));
-    for (size_t k = 1; k < face.loops.size(); ++k) {
-      const std::vector<Vec2> hole = polygon(face.loops[k]);
+    std::vector<std::vector<Vec2>> holes;
+    for (size_t k = 1; k < face.loops.size(); ++k) holes.push_back(polygon(face.loops[k]));
+    for (const std::vector<Vec2>& hole : holes) {
       if (!(side * signed_area(hole) < 0)) report("an inner loop has its face on the left", face_name(index));
       if (!contains(outer, hole[0])) report("inner loops lie within the outer loop", face_name(index));
+      for (const std::vector<Vec2>& other : holes)
+        if (&other != &hole && std::all_of(hole.begin(), hole.end(), [&](const Vec2& p) { return contains(other, p); }))
+          report("no inner loop lies within another", face_name(index));
     }
-    if (loops_cross(face)) report("the loops of a face do not cross", face_name(index));
+    if (loops_cross(face, side)) report("the loops of a face do not cross", face_name(index));
   }
 
-  // Polygons of neighbouring loops may cross where the curves do not: finer ones decide.
-  bool loops_cross(const Face& face) const {
+  // Polygons of neighbouring loops may cross where the curves do not: finer ones decide. Polygons that cross
+  // unnoticed leave triangles of another area than they enclose.
+  bool loops_cross(const Face& face, double side) const {
     for (int count : {kSamples, 8 * kSamples, 64 * kSamples}) {
       std::vector<Vec2> points;
       std::vector<std::vector<int>> polygons;
+      double area = 0, all = 0;
       for (int loop : face.loops) {
         polygons.emplace_back();
-        for (const Vec2& p : polygon(loop, count)) {
+        const std::vector<Vec2> border = polygon(loop, count);
+        area += side * signed_area(border);
+        all += std::abs(signed_area(border));
+        for (const Vec2& p : border) {
           polygons.back().push_back(static_cast<int>(points.size()));
           points.push_back(p);
         }
+        if (side < 0) std::reverse(polygons.back().begin(), polygons.back().end());
       }
       try {
-        triangulate(points, polygons);
-        return false;
+        for (const IndexTriangle& t : triangulate(points, polygons))
+          area -= signed_area({points[t[0]], points[t[1]], points[t[2]]});
+        if (std::abs(area) <= kParameterRounding * all) return false;
       } catch (const std::invalid_argument&) {
       }
     }

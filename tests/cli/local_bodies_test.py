@@ -1,0 +1,39 @@
+"""Bodies changed in places: faces that would run into each other are refused, names mean what is outside, moved bodies are recognised."""
+
+import math
+import unittest
+
+from program import ProgramTest
+
+SQUARE = ("{ type: extrusion_body, along: z, of: [{ type: rectangle, size: [4, 4] }, { type: polyline, closed: true, points: "
+          "[[1, -1], [1, 1], [-1, 1], [-1, -1]] }] }")
+PLATE = ("{ type: extrusion_body, along: z, of: [{ type: rectangle, size: [6, 4] }, { type: circle, radius: 0.4, center: [-1, 0] }, "
+         "{ type: circle, radius: 0.8, center: [1, 0] }] }")
+MERIDIAN = "{ type: polyline, points: [[0, 0, 0], [4, 0, 0], [4, 0, 4], [1, 0, 4], [1, 0, 1], [0, 0, 1]] }"
+TRAY = "{ type: shell_body, of: block, thickness: 0.5, open: z_max }"
+BLOCK = "  block: { type: box, size: [4, 4, 2] }\n"
+
+
+class LocalBodies(ProgramTest):
+    def scene(self, body, more=BLOCK):
+        self.write("local.yaml", f"lekalo: 1\ngeometry:\n{more}  b: {{ {body} }}\n")
+
+    def volume(self, body, more=BLOCK):
+        self.scene(body, more)
+        return self.json_of("measure", "local.yaml", "b")["volume"]
+
+    def refused(self, body, *texts, more=BLOCK, code=3):
+        self.scene(body, more)
+        errors = self.run_program("measure", "local.yaml", "b", code=code)[1]
+        for text in texts:
+            self.assertIn(text, errors)
+
+    def test_walls_through_holes(self):
+        self.refused(f"type: moved_faces, of: {SQUARE}, faces: side.3, distance: -1.2", "the loops of a face do not cross", "move them by less")
+        for by, condition in (0.9, "the loops of a face do not cross"), (2.1, "no inner loop lies within another"):
+            self.refused(f"type: moved_faces, of: {PLATE}, faces: side.4, by: {{ translate: [{by}, 0, 0] }}", condition)
+
+
+
+if __name__ == "__main__":
+    unittest.main()
