@@ -33,6 +33,14 @@ class LocalBodies(ProgramTest):
         for by, condition in (0.9, "the loops of a face do not cross"), (2.1, "no inner loop lies within another"):
             self.refused(f"type: moved_faces, of: {PLATE}, faces: side.4, by: {{ translate: [{by}, 0, 0] }}", condition)
 
+    def test_faces_that_are_no_neighbours(self):
+        turned = f"{{ type: revolution_body, of: {MERIDIAN}, axis: z }}"
+        self.refused(f"type: offset_body, of: {turned}, distance: -0.6", "run into each other", "up to 0.5 works")
+        self.refused("type: moved_faces, of: { type: shell_body, of: block, thickness: 0.5 }, faces: inner.block.x_max, distance: -2", "run into each other")
+        self.refused(f"type: moved_faces, of: {TRAY}, faces: block.z_min, distance: -0.8", "block.z_min and inner.block.x_min run into each other")
+        self.refused(f"type: chamfer_body, of: {TRAY}, chamfers: {{ edges: {{ between: [block.z_min, block.x_min] }}, lengths: 1.5 }}",
+                     "chamfers.0 run into each other", "the largest length that fits is 0.99999")
+
 
 
 if __name__ == "__main__":

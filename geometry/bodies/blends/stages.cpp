@@ -1,10 +1,14 @@
 // Blends of edges that meet in a corner but not in one ball, one after the other (Golovanov 2016, 6.9, algorithm step
 // 7): where a first edge has run out its end is an arc, with which the others continue each other.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
 
 #include "geometry/bodies/blends/blending.h"
+#include "geometry/bodies/local/crossing_faces.h"
+#include "geometry/bodies/topology/entity_names.h"
 
 namespace lekalo::geometry {
 
@@ -87,6 +91,18 @@ void number_equals(std::vector<Entity>& entities, const std::set<std::string>& r
     if (is_new(one)) one.origin.index = count[one.origin.role] > 1 ? next[one.origin.role]++ : -1;
 }
 
+// Blends keep clear of the faces that are no neighbours of their edges.
+void check_room(const Body& made, const Body& body, const std::vector<BlendRequest>& requests) {
+  const auto is_new = [&](int face) { return face >= static_cast<int>(body.faces.size()); };
+  const auto pair = crossing_faces(made, is_new);
+  if (!pair) return;
+  int edge = -1;
+  for (const BlendRequest& one : requests)
+    if (edge < 0 && !one.edges.empty()) edge = one.edges.front();
+  throw BlendError(edge, fmt::format("the faces {} and {} run into each other", name_of_face(made, pair->first),
+                                     name_of_face(made, pair->second)));
+}
+
 }  // namespace
 
 Body blended(const Body& body, const std::vector<BlendRequest>& requests, Corners corners) {
@@ -104,6 +120,7 @@ Body blended(const Body& body, const std::vector<BlendRequest>& requests, Corner
   for (const BlendRequest& one : requests) roles.insert(one.rule.role);
   number_equals(stage.body.faces, roles);
   number_equals(stage.body.edges, roles);
+  check_room(stage.body, body, requests);
   return std::move(stage.body);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geometry/bodies/constructions/swept_body.h"
+#include "geometry/bodies/local/crossing_faces.h"
 #include "geometry/bodies/local/new_faces.h"
 #include "geometry/bodies/primitives/construct.h"
 #include "geometry/curves/operations/surface_curve.h"
@@ -241,6 +242,7 @@ class Replacing {
         same ? made_.body.add_face(old.surface, old.forward, old.origin, old.trimmed) : add_face_on(f, loops);
     for (const std::vector<Body::Use>& uses : loops) made_.body.add_loop(face, uses);
     made_.faces.push_back(f);
+    made_.changed.push_back(!same);
     if (cut_off_) turn_to_loop(face);
   }
 
@@ -391,6 +393,12 @@ void check_replacement(const FaceReplacement& made, const char* field, const cha
         field,
         fmt::format("the faces make no body: not met is '{}' ({})", found.front().condition, found.front().entity),
         hint);
+  const auto is_changed = [&](int f) { return !made.changed.empty() && made.changed[f]; };
+  if (const auto pair = crossing_faces(made.body, is_changed))
+    throw FieldError(field,
+                     fmt::format("the faces {} and {} run into each other", name_of_face(made.body, pair->first),
+                                 name_of_face(made.body, pair->second)),
+                     hint);
 }
 
 }  // namespace lekalo::geometry

@@ -16,7 +16,8 @@ namespace lekalo::geometry {
 
 struct FaceReplacement {
   Body body;
-  std::vector<int> faces;  // the old number of each face
+  std::vector<int> faces;     // the old number of each face
+  std::vector<char> changed;  // whether each face has another surface or border; empty where no face has
   // Names of edges that run the other way now: the body passes through itself there.
   std::vector<std::string> turned_edges;
   bool polyhedral = false;  // all faces are plane
@@ -32,7 +33,8 @@ struct FaceReplacement {
 FaceReplacement replace_faces(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field,
                               bool cut_off = false);
 
-// Throws FieldError (that field, with the hint) where edges have turned or the body is not valid.
+// Throws FieldError (that field, with the hint) where edges have turned, the body is not valid, or a changed face runs
+// into another.
 void check_replacement(const FaceReplacement& made, const char* field, const char* hint);
 
 }  // namespace lekalo::geometry

@@ -50,6 +50,7 @@ void untangle(const Body& body, const std::vector<double>& distances, FaceReplac
   made.body = std::move(result.body);
   made.faces = std::move(faces);
   made.turned_edges.clear();
+  made.changed.clear();
 }
 
 }  // namespace
