@@ -41,6 +41,11 @@ class LocalBodies(ProgramTest):
         self.refused(f"type: chamfer_body, of: {TRAY}, chamfers: {{ edges: {{ between: [block.z_min, block.x_min] }}, lengths: 1.5 }}",
                      "chamfers.0 run into each other", "the largest length that fits is 0.99999")
 
+    def test_dents_through_the_body(self):
+        dent = "type: deformed_face, of: { type: box, size: [3, 3, 2] }, face: z_max, count: 5, moves: { at: [2, 2], height: %s }"
+        self.assertGreater(self.volume(dent % -4), 0)
+        self.refused(dent % -12, "the faces z_min and z_max run into each other", "moves by less")
+
 
 
 if __name__ == "__main__":

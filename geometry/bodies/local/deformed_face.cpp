@@ -53,10 +53,14 @@ Body deformed(const Fields& f) {
   const int number = one_called(body, Element::face, f.text("face"), "face");
   const SurfacePtr surface = deformed_by(base_of(body, number), f, true);
   if (gap_at_border(body, number, *surface) <= 1e-12 * bounds(body).diameter()) {
-    Body result = body;
-    result.faces[number].surface = surface;
-    result.faces[number].forward = true;
-    return result;
+    FaceReplacement made;
+    made.body = body;
+    made.body.faces[number].surface = surface;
+    made.body.faces[number].forward = true;
+    made.changed.assign(body.faces.size(), 0);
+    made.changed[number] = 1;
+    check_replacement(made, "face", "moves by less");
+    return std::move(made.body);
   }
   std::vector<SurfacePtr> surfaces;
   for (const Face& face : body.faces) surfaces.push_back(face.surface);
