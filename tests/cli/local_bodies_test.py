@@ -46,6 +46,15 @@ class LocalBodies(ProgramTest):
         self.assertGreater(self.volume(dent % -4), 0)
         self.refused(dent % -12, "the faces z_min and z_max run into each other", "moves by less")
 
+    def test_walls_that_fall_apart(self):
+        self.scene("type: shell_body, of: { type: extrusion_body, along: z, of: [{ type: rectangle, size: [4, 4] }, { type: circle, radius: 0.5 }] }, "
+                   "thickness: 0.2, open: [start, end]")
+        found = self.json_of("measure", "local.yaml", "b", "--topology")
+        self.assertEqual((found["violations"], found["shells"]), ([], 2))
+        self.assert_near(self.json_of("measure", "local.yaml", "b")["volume"], 16 - 3.6**2 + math.pi * (0.7**2 - 0.5**2), 1e-9)
+        self.refused("type: shell_body, of: { type: shell_body, of: block, thickness: 0.5, open: [x_min, x_max, y_min, y_max] }, thickness: 0.1",
+                     "hollow already")
+
 
 
 if __name__ == "__main__":

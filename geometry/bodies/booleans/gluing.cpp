@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "geometry/bodies/booleans/boolean.h"
+#include "geometry/bodies/topology/characteristics.h"
 
 namespace lekalo::geometry {
 
@@ -29,7 +30,7 @@ class Gluing {
     make_edges();
     make_vertices();
     make_faces();
-    make_shells();
+    divide_shells(body_);
     set_tolerances();
     return std::move(body_);
   }
@@ -163,26 +164,6 @@ class Gluing {
         if (side_of(body_.faces[face]) < 0) std::reverse(loop.begin(), loop.end());
         body_.add_loop(face, loop);
       }
-    }
-  }
-
-  void make_shells() {
-    std::vector<int> root(body_.faces.size());
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](int k) {
-      while (root[k] != k) k = root[k] = root[root[k]];
-      return k;
-    };
-    const auto face_of = [&](int coedge) { return body_.loops[body_.coedges[coedge].loop].face; };
-    for (const Edge& edge : body_.edges)
-      for (const int c : edge.coedges) root[find(face_of(c))] = find(face_of(edge.coedges.front()));
-    std::map<int, int> shell_of;
-    for (size_t f = 0; f < body_.faces.size(); ++f) {
-      const auto [found, is_new] =
-          shell_of.try_emplace(find(static_cast<int>(f)), static_cast<int>(body_.shells.size()));
-      if (is_new) body_.shells.emplace_back();
-      body_.faces[f].shell = found->second;
-      body_.shells[found->second].faces.push_back(static_cast<int>(f));
     }
   }
 

@@ -11,6 +11,7 @@
 #include "geometry/bodies/local/face_replacement.h"
 #include "geometry/bodies/local/offset_of_body.h"
 #include "geometry/bodies/local/plane_seams.h"
+#include "geometry/bodies/topology/characteristics.h"
 #include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/queries/closest/closest_point.h"
 
@@ -242,8 +243,12 @@ class Walls {
     }
     for (auto& hole : holes) {
       const Vec3 p = hole[0].image->point(hole[0].image->domain().lo);
-      auto around =
-          std::find_if(faces.begin(), faces.end(), [&](const auto& face) { return box_of(face[0]).contains(p); });
+      // The innermost: rims lie within each other where the walls fall apart.
+      auto around = faces.end();
+      for (auto one = faces.begin(); one != faces.end(); ++one)
+        if (box_of((*one)[0]).contains(p) &&
+            (around == faces.end() || box_of((*one)[0]).diameter() < box_of((*around)[0]).diameter()))
+          around = one;
       if (around == faces.end())
         throw FieldError("thickness", "the walls are too thick: nothing is left of the rim", "thinner walls");
       around->push_back(std::move(hole));
@@ -272,7 +277,7 @@ class Walls {
   }
 
   void add_shells() {
-    if (std::any_of(opened_.begin(), opened_.end(), [](char open) { return open != 0; })) return made_.close_shell();
+    if (std::any_of(opened_.begin(), opened_.end(), [](char open) { return open != 0; })) return divide_shells(made_);
     made_.shells.resize(2);
     for (size_t f = 0; f < made_.faces.size(); ++f) {
       made_.faces[f].shell = halves_[f];

@@ -13,6 +13,7 @@
 
 #include "geometry/bodies/constructions/swept_body.h"
 #include "geometry/bodies/local/plane_polygons.h"
+#include "geometry/bodies/topology/characteristics.h"
 #include "geometry/curves/analytic/segment.h"
 
 namespace lekalo::geometry {
@@ -348,26 +349,7 @@ class Untangling {
     Body& body = made_.body;
     for (const Edge& e : body.edges)
       if (e.coedges.size() != 2) throw std::invalid_argument("the body touches itself along an edge");
-    std::vector<int> shell(body.faces.size(), -1);
-    for (size_t f = 0; f < body.faces.size(); ++f) {
-      if (shell[f] >= 0) continue;
-      const int number = static_cast<int>(body.shells.size());
-      body.shells.push_back({{}, true});
-      std::vector<int> open{static_cast<int>(f)};
-      shell[f] = number;
-      while (!open.empty()) {
-        const int here = open.back();
-        open.pop_back();
-        body.shells[number].faces.push_back(here);
-        body.faces[here].shell = number;
-        for (const int l : body.faces[here].loops)
-          for (const int c : body.loops[l].coedges)
-            for (const int other : body.edges[body.coedges[c].edge].coedges) {
-              const int next = body.loops[body.coedges[other].loop].face;
-              if (shell[next] < 0) shell[next] = number, open.push_back(next);
-            }
-      }
-    }
+    divide_shells(body);
   }
 
   const Body& old_;

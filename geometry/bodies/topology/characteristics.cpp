@@ -156,4 +156,19 @@ NonManifold non_manifold_places(const Body& body) {
   return result;
 }
 
+void divide_shells(Body& body) {
+  Sets sets(body.faces.size());
+  for (const Edge& edge : body.edges)
+    for (const int c : edge.coedges)
+      sets.join(body.loops[body.coedges[c].loop].face, body.loops[body.coedges[edge.coedges.front()].loop].face);
+  std::map<int, int> shell_of;
+  body.shells.clear();
+  for (int f = 0; f < static_cast<int>(body.faces.size()); ++f) {
+    const auto [found, is_new] = shell_of.try_emplace(sets.find(f), static_cast<int>(body.shells.size()));
+    if (is_new) body.shells.push_back({{}, true});
+    body.faces[f].shell = found->second;
+    body.shells[found->second].faces.push_back(f);
+  }
+}
+
 }  // namespace lekalo::geometry

@@ -24,6 +24,9 @@ struct ShellCharacteristics {
 // Of each connected part of the body, by its lowest face: faces are connected by edges.
 std::vector<ShellCharacteristics> characteristics(const Body& body);
 
+// Gives each connected part of the body, by its lowest face, a shell.
+void divide_shells(Body& body);
+
 // Edges in which more than two faces meet, and vertices whose faces form several fans, by number.
 struct NonManifold {
   std::vector<int> edges, vertices;
