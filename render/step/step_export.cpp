@@ -12,6 +12,7 @@
 #include "geometry/queries/closest/position.h"
 #include "geometry/queries/measures/mass_properties.h"
 #include "geometry/transformed.h"
+#include "render/model/length_unit.h"
 #include "render/step/step_geometry.h"
 
 namespace lekalo::render {
@@ -27,14 +28,16 @@ std::string length_unit(StepWriter& w, const std::string& unit) {
   const auto metre = [&](const char* prefix) {
     return w.add(fmt::format("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT({},.METRE.))", prefix));
   };
-  if (unit == "m") return metre("$");
-  if (unit == "cm") return metre(".CENTI.");
-  if (unit == "um" || unit == "µm") return metre(".MICRO.");
-  const std::string millimetre = metre(".MILLI.");
-  if (unit != "in" && unit != "inch") return millimetre;
+  const double millimetres = millimetres_of(unit).value_or(1);
+  static const std::map<double, const char*> prefixes = {{1e-3, ".MICRO."}, {1, ".MILLI."}, {10, ".CENTI."},
+                                                         {100, ".DECI."},   {1000, "$"},    {1e6, ".KILO."}};
+  const auto prefix = prefixes.find(millimetres);
+  if (prefix != prefixes.end()) return metre(prefix->second);
   const std::string dimensions = w.add("DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)");
-  const std::string measure = w.add(fmt::format("LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),{})", millimetre));
-  return w.add(fmt::format("(CONVERSION_BASED_UNIT('INCH',{})LENGTH_UNIT()NAMED_UNIT({}))", measure, dimensions));
+  const std::string measure =
+      w.add(fmt::format("LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({}),{})", millimetres, metre(".MILLI.")));
+  const char* name = unit == "ft" ? "FOOT" : unit == "yd" ? "YARD" : "INCH";
+  return w.add(fmt::format("(CONVERSION_BASED_UNIT('{}',{})LENGTH_UNIT()NAMED_UNIT({}))", name, measure, dimensions));
 }
 
 // One shell as a body of its own.
@@ -69,7 +72,7 @@ Body shell_of(const Body& body, int shell) {
 class Exporting {
  public:
   Exporting(const std::string& unit, double tolerance)
-      : geometry_(writer_, tolerance, [this](double deviation) { note_fit(deviation); }) {
+      : unit_(unit), geometry_(writer_, tolerance, [this](double deviation) { note_fit(deviation); }) {
     const std::string context =
         writer_.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')");
     writer_.add(
@@ -103,6 +106,8 @@ class Exporting {
     if (!styled_.empty())
       writer_.add(
           fmt::format("MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',{},{})", step_list(styled_), units_));
+    if (!unit_.empty() && !millimetres_of(unit_))
+      notes_.push_back(fmt::format("info.unit '{}' is not known: lengths are written as millimetres", unit_));
     for (const auto& [name, fit] : fits_)
       notes_.push_back(fmt::format("'{}': {} of its curves and surfaces {} fitted, {:.2g} away at most", name,
                                    fit.count, fit.count == 1 ? "is" : "are", fit.largest));
@@ -285,6 +290,7 @@ class Exporting {
     return writer_.add(fmt::format("STYLED_ITEM('color',({}),{})", assigned, item));
   }
 
+  std::string unit_;
   StepWriter writer_;
   StepGeometry geometry_;
   std::string product_context_, definition_context_, units_;

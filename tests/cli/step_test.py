@@ -21,8 +21,8 @@ objects:
 
 
 class Step(ProgramTest):
-    def exported(self, *arguments):
-        self.write("scene.yaml", SCENE)
+    def exported(self, *arguments, unit="cm"):
+        self.write("scene.yaml", SCENE.replace("unit: cm", f"unit: {unit}"))
         _, errors = self.run_program("export", "scene.yaml", *arguments, "-o", "x.step")
         text = (self.folder / "x.step").read_text()
         entities = dict(re.findall(r"^#(\d+)=(.*);$", text, re.M))
@@ -53,6 +53,15 @@ class Step(ProgramTest):
         found = re.search(r"note: 'wave': \d+ of its curves and surfaces are fitted, (\S+) away", errors)
         self.assertTrue(found, errors)
         self.assertLess(float(found[1]), 1e-8)
+
+    def test_units(self):
+        for unit, written in (("km", "SI_UNIT(.KILO.,.METRE.)"), ("dm", "SI_UNIT(.DECI.,.METRE.)"), ("ft", "CONVERSION_BASED_UNIT('FOOT'")):
+            text, errors = self.exported("block", unit=unit)
+            self.assertIn(written, text)
+            self.assertNotIn("not known", errors)
+        text, errors = self.exported("block", unit="ell")
+        self.assertIn("SI_UNIT(.MILLI.,.METRE.)", text)
+        self.assertIn("note: info.unit 'ell' is not known: lengths are written as millimetres", errors)
 
     def test_what_is_left_out(self):
         _, errors = self.exported("block", "blob")

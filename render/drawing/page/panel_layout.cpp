@@ -12,6 +12,7 @@
 #include "render/drawing/page/graph_axes.h"
 #include "render/drawing/page/legend.h"
 #include "render/drawing/text/text_layout.h"
+#include "render/model/length_unit.h"
 #include "render/scene/values/diagnostics.h"
 
 namespace lekalo::render {
@@ -26,16 +27,6 @@ constexpr double kTallest = 3;  // times its width: pictures whose height is fou
 constexpr double kRounding = 1e-6;
 constexpr double kMinRoom = 1;  // millimetres of a panel, and for what is shown beside its annotations
 constexpr const char* kAnchorFields[] = {"at", "from", "to"};
-
-double millimetres_of(const std::string& unit) {
-  if (unit == "cm") return 10;
-  if (unit == "m") return 1000;
-  if (unit == "um" || unit == "µm") return 1e-3;
-  if (unit == "km") return 1e6;
-  if (unit == "in" || unit == "inch") return 25.4;
-  if (unit == "ft") return 304.8;
-  return 1;
-}
 
 Model model_of(const Model& page, const Panel& panel) {
   Model model = page;
@@ -302,7 +293,7 @@ std::string fitting_scale(const Model& page, const Vec2& needed, const Vec2& fix
 // All at the page's scale.
 void add_scaled(const Model& page, const Rows& rows, const PanelsByName& panels, size_t columns, bool alone,
                 PanelLayout& layout) {
-  const double scale = page.layout.scale * millimetres_of(page.unit);
+  const double scale = page.layout.scale * millimetres_of(page.unit).value_or(1);
   const Tracks tracks = tracks_at(page, rows, panels, columns, scale);
   const Vec2& needed = tracks.size;
   if (page.paper.auto_width || alone) layout.width = needed.x;
