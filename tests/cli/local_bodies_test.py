@@ -55,6 +55,22 @@ class LocalBodies(ProgramTest):
         self.refused("type: shell_body, of: { type: shell_body, of: block, thickness: 0.5, open: [x_min, x_max, y_min, y_max] }, thickness: 0.1",
                      "hollow already")
 
+    def test_moved_bodies_are_recognised(self):
+        rounded = ("  plain: { type: extrusion_body, along: z, of: { type: rectangle, size: [3, 2], corner_radius: 0.5 } }\n"
+                   "  holed: { type: extrusion_body, along: z, of: [{ type: rectangle, size: [4, 4] }, { type: circle, radius: 1 }] }\n")
+        for step in "{ mirror: x }", "{ scale: 2 }", "[{ rotate: 30, axis: y }, { mirror: [1, 2, 3] }, { scale: 0.5 }]":
+            k = 2 if step == "{ scale: 2 }" else 0.5 if "0.5" in step else 1
+            moved = f"{{ like: plain, transform: {step} }}"
+            self.assert_near(self.volume(f"type: refilleted_body, of: {moved}, radius: {0.25 * k}", rounded), (6 - (4 - math.pi) * 0.0625) * k**3, 1e-9)
+            self.assert_near(self.volume(f"type: moved_faces, of: {moved}, faces: side.0, distance: {0.5 * k}", rounded),
+                             self.volume("type: moved_faces, of: plain, faces: side.0, distance: 0.5", rounded) * k**3, 1e-9)
+        leant = "type: drafted_faces, of: %s, faces: side.4, angle: 5"
+        for step, k in ("{ mirror: z }", 1), ("{ scale: 2 }", 2):
+            there = self.volume(leant % f"{{ like: holed, transform: {step} }}", rounded)
+            self.assertGreater(abs(there - (16 - math.pi) * k**3), 0.1)
+            if k == 2:
+                self.assert_near(there, self.volume(leant % "holed", rounded) * k**3, 1e-9)
+
 
 
 if __name__ == "__main__":

@@ -106,23 +106,28 @@ SurfacePtr offset_revolution(const RevolutionSurface& r, double d, const char* f
   return std::make_shared<RevolutionSurface>(offset_in_plane(r.curve(), normal, -d, field), axis, r.domain());
 }
 
-bool is_rigid(const Affine& map) {
+// Of a map that keeps angles, a mirroring too, what lengths are multiplied by.
+std::optional<double> scale_of(const Affine& map) {
+  const double scale = std::cbrt(std::abs(map.determinant()));
   const Mat3 square = glm::transpose(map.linear) * map.linear;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      if (std::abs(square[i][j] - (i == j ? 1 : 0)) > 1e-14) return false;
-  return map.determinant() > 0;
+      if (std::abs(square[i][j] - (i == j ? scale * scale : 0)) > 1e-14 * scale * scale) return std::nullopt;
+  return scale;
+}
+
+bool is_rigid(const Affine& map) {
+  const auto scale = scale_of(map);
+  return scale && std::abs(*scale - 1) <= 1e-14 && map.determinant() > 0;
 }
 
 SurfacePtr offset_by_kind(const SurfacePtr& surface, double d, const char* field) {
   if (const auto* moved = dynamic_cast<const TransformedSurface*>(surface.get())) {
-    const Mat3& a = moved->map().linear;
-    const double scale = std::cbrt(moved->map().determinant());
-    const Mat3 square = glm::transpose(a) * a;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        if (std::abs(square[i][j] - (i == j ? scale * scale : 0)) > 1e-14 * scale * scale) return nullptr;
-    const SurfacePtr inner = offset_by_kind(moved->original(), d / scale, field);
+    const auto scale = scale_of(moved->map());
+    if (!scale) return nullptr;
+    // Mirrored, r_u x r_v looks to the other side.
+    const double side = moved->map().determinant() > 0 ? 1 : -1;
+    const SurfacePtr inner = offset_by_kind(moved->original(), side * d / *scale, field);
     return inner ? transformed(inner, moved->map()) : nullptr;
   }
   if (const auto* cone = dynamic_cast<const ConeSurface*>(surface.get())) return offset_cone(*cone, d);
@@ -165,19 +170,24 @@ SurfacePtr offset_support(const SurfacePtr& surface, double d, const char* field
 
 SurfacePtr moved_support(const SurfacePtr& surface, const Affine& map) {
   if (map.is_identity()) return surface;
-  if (!is_rigid(map)) return transformed(surface, map);
+  const auto scale = scale_of(map);
+  if (!scale) return transformed(surface, map);
+  // With the frame's z turned in a mirror, and heights below 0, the parameters stay.
+  const double k = is_rigid(map) ? 1 : *scale, side = map.determinant() > 0 ? 1 : -1;
   const auto moved = [&](const Frame& f) {
-    return Frame{map.point(f.origin), map.direction(f.x), map.direction(f.y), map.direction(f.z)};
+    return Frame{map.point(f.origin), map.direction(f.x) / k, map.direction(f.y) / k, side * map.direction(f.z) / k};
   };
   std::shared_ptr<Surface> result;
-  if (const auto* plane = dynamic_cast<const Plane*>(surface.get()))
+  const auto* plane = dynamic_cast<const Plane*>(surface.get());
+  if (plane && is_rigid(map))
     result = std::make_shared<Plane>(moved(plane->frame()), plane->domain());
   else if (const auto* e = dynamic_cast<const ExtrusionSurface*>(surface.get()))
     result = std::make_shared<ExtrusionSurface>(transformed(e->curve(), map), map.direction(e->along()), e->domain());
   else if (const auto* c = dynamic_cast<const ConeSurface*>(surface.get()); c && c->radius() == c->top_radius())
-    result = std::make_shared<CylinderSurface>(moved(c->frame()), c->radius(), c->height(), c->domain());
+    result = std::make_shared<CylinderSurface>(moved(c->frame()), k * c->radius(), side * k * c->height(), c->domain());
   else if (c)
-    result = std::make_shared<ConeSurface>(moved(c->frame()), c->radius(), c->top_radius(), c->height(), c->domain());
+    result = std::make_shared<ConeSurface>(moved(c->frame()), k * c->radius(), k * c->top_radius(),
+                                           side * k * c->height(), c->domain());
   else
     return transformed(surface, map);
   result->set_reversed(surface->reversed());
@@ -186,7 +196,7 @@ SurfacePtr moved_support(const SurfacePtr& surface, const Affine& map) {
 
 SurfacePtr unwrapped(const SurfacePtr& surface) {
   const auto* moved = dynamic_cast<const TransformedSurface*>(surface.get());
-  return moved && is_rigid(moved->map()) ? moved_support(moved->original(), moved->map()) : surface;
+  return moved && scale_of(moved->map()) ? moved_support(moved->original(), moved->map()) : surface;
 }
 
 Vec2 middle_of_face(const Body& body, int face) {

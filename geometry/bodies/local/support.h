@@ -19,9 +19,10 @@ std::optional<Frame> plane_of(const SurfacePtr& surface);
 // offset_surface, to which conditions and errors belong. A mitred offset of a curve may throw FieldError (that field).
 SurfacePtr offset_support(const SurfacePtr& surface, double distance, const char* field);
 
-// The surface under a map; one that is rigid makes a plane, a cylinder, a cone or an extrusion of one of them.
+// The surface under a map; one that keeps angles makes a cylinder, a cone or an extrusion of one of them, a rigid one a
+// plane too.
 SurfacePtr moved_support(const SurfacePtr& surface, const Affine& map);
-// A surface that has been moved rigidly, as one of its own kind likewise; others as they are.
+// A surface that has been moved, mirrored or scaled evenly, as one of its own kind likewise; others as they are.
 SurfacePtr unwrapped(const SurfacePtr& surface);
 
 // Half the way between the ends of a face's loops in its parameter plane.
