@@ -55,6 +55,11 @@ class LocalBodies(ProgramTest):
         self.refused("type: shell_body, of: { type: shell_body, of: block, thickness: 0.5, open: [x_min, x_max, y_min, y_max] }, thickness: 0.1",
                      "hollow already")
 
+    def test_fillet_beside_a_hole(self):
+        plate = ("{ type: extrusion_body, along: [0, 0, 2], of: [{ type: rectangle, size: [6, 4] }, { type: circle, radius: 0.2, center: [0, 1.5] }] }")
+        self.refused(f"type: fillet_body, of: {plate}, fillets: {{ edges: {{ between: [side.2, end] }}, radius: 0.5 }}", "edge",
+                     "there is no room", "the largest radius that fits is")
+
     def test_moved_bodies_are_recognised(self):
         rounded = ("  plain: { type: extrusion_body, along: z, of: { type: rectangle, size: [3, 2], corner_radius: 0.5 } }\n"
                    "  holed: { type: extrusion_body, along: z, of: [{ type: rectangle, size: [4, 4] }, { type: circle, radius: 1 }] }\n")

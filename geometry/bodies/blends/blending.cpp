@@ -417,6 +417,15 @@ Stage blended_at_once(const Body& body, const std::vector<BlendRequest>& request
   } catch (BlendError& error) {
     error.name = name_of_edge(*now, error.edge);
     throw;
+  } catch (const std::invalid_argument&) {
+    // Curves and surfaces do not go as far as it asks of them.
+    for (const BlendRequest& one : asked)
+      for (const int edge : one.edges) {
+        BlendError error(edge, "there is no room for its blend");
+        error.name = name_of_edge(*now, edge);
+        throw error;
+      }
+    throw;
   }
 }
 
