@@ -55,6 +55,12 @@ class LocalBodies(ProgramTest):
         self.refused("type: shell_body, of: { type: shell_body, of: block, thickness: 0.5, open: [x_min, x_max, y_min, y_max] }, thickness: 0.1",
                      "hollow already")
 
+    def test_chamfers_that_say_too_much(self):
+        one = "type: chamfer_body, of: block, chamfers: { edges: { between: [z_max, x_max] }, lengths: [0.3, 0.2], %s }"
+        self.refused(one % "angle: 30", "lengths leave no choice of the angle")
+        self.refused(one % "face: x_min", "the face 'x_min' lies beside none of the edges")
+        self.assert_near(self.volume(one % "face: x_max"), 32 - 0.5 * 0.3 * 0.2 * 4, 1e-9)
+
     def test_fillet_beside_a_hole(self):
         plate = ("{ type: extrusion_body, along: [0, 0, 2], of: [{ type: rectangle, size: [6, 4] }, { type: circle, radius: 0.2, center: [0, 1.5] }] }")
         self.refused(f"type: fillet_body, of: {plate}, fillets: {{ edges: {{ between: [side.2, end] }}, radius: 0.5 }}", "edge",

@@ -164,8 +164,14 @@ void add_chamfers(const Body& body, const Fields& f, size_t number, std::vector<
   if (f.has("face")) {
     request.first_faces.clear();
     for (const int face : all_called(body, Element::face, {f.text("face")}, "face")) request.first_faces.insert(face);
-    if (request.first_faces.empty())
-      throw FieldError("chamfers", fmt::format("item {}: the body has no face '{}'", number, f.text("face")));
+    const bool is_beside = std::any_of(request.edges.begin(), request.edges.end(), [&](int edge) {
+      const std::vector<int> beside = faces_beside(body, edge);
+      return std::any_of(beside.begin(), beside.end(), [&](int k) { return request.first_faces.count(k) > 0; });
+    });
+    if (!is_beside)
+      throw FieldError("chamfers",
+                       fmt::format("item {}: the face '{}' lies beside none of the edges", number, f.text("face")),
+                       "one of the two faces that meet in such an edge");
   }
   request.goes_on = f.boolean("chain");
   BlendRule& rule = request.rule;
@@ -173,6 +179,9 @@ void add_chamfers(const Body& body, const Fields& f, size_t number, std::vector<
   if (f.has("lengths") == f.has("length"))
     throw FieldError("chamfers", fmt::format("item {}: a chamfer has lengths, or a length and an angle", number),
                      "give one of lengths: [a, b] and length: a, angle: 30");
+  if (f.has("lengths") && f.given("angle"))
+    throw FieldError("chamfers", fmt::format("item {}: lengths leave no choice of the angle", number),
+                     "lengths alone, or length: a, angle: 30");
   if (f.has("lengths")) {
     const auto& given = f.get<std::vector<Expression>>("lengths");
     rule.sizes = {law_of(given.front()), law_of(given.back())};
