@@ -55,6 +55,11 @@ class LocalBodies(ProgramTest):
         self.refused("type: shell_body, of: { type: shell_body, of: block, thickness: 0.5, open: [x_min, x_max, y_min, y_max] }, thickness: 0.1",
                      "hollow already")
 
+    def test_short_names_mean_what_is_outside(self):
+        hollow = "{ type: shell_body, of: block, thickness: 0.5 }"
+        self.assert_near(self.volume(f"type: moved_faces, of: {hollow}, faces: x_min, distance: 0.5"), 4.5 * 8 - 3 * 3 * 1, 1e-9)
+        self.assert_near(self.volume(f"type: moved_faces, of: {hollow}, faces: inner.block.x_min, distance: 0.2"), 32 - 2.8 * 3 * 1, 1e-9)
+
     def test_chamfers_that_say_too_much(self):
         one = "type: chamfer_body, of: block, chamfers: { edges: { between: [z_max, x_max] }, lengths: [0.3, 0.2], %s }"
         self.refused(one % "angle: 30", "lengths leave no choice of the angle")

@@ -192,14 +192,17 @@ std::vector<int> called(const Body& body, Element element, std::string_view name
   const auto text = [&](int k) { return origin(body, element, k).text(); };
   std::vector<int> chosen = where([&](int k) { return text(k) == name; });
   if (chosen.empty()) chosen = where([&](int k) { return stands_for(name, text(k)); });
-  // Without the name of the operand.
-  if (chosen.empty())
-    chosen = where([&](int k) {
-      const std::string full = text(k);
-      for (size_t dot = full.find('.'); dot != std::string::npos; dot = full.find('.', dot + 1))
-        if (stands_for(name, std::string_view(full).substr(dot + 1))) return true;
-      return false;
-    });
+  // Without the name of the operand; the walls inside of a shell, inner.NAME, only where there is nothing else.
+  for (const bool with_inner : {false, true})
+    if (chosen.empty())
+      chosen = where([&](int k) {
+        const std::string full = text(k);
+        for (size_t dot = full.find('.'); dot != std::string::npos; dot = full.find('.', dot + 1)) {
+          if (!with_inner && parts_of(std::string_view(full).substr(0, dot)).back() == "inner") return false;
+          if (stands_for(name, std::string_view(full).substr(dot + 1))) return true;
+        }
+        return false;
+      });
   if (chosen.empty()) chosen = where([&](int k) { return name == fmt::format("{}.{}", word(element), k); });
   if (chosen.empty()) chosen = where([&](int k) { return name == std::to_string(k); });
   return chosen;
