@@ -87,6 +87,9 @@ class LocalBodies(ProgramTest):
             if k == 2:
                 self.assert_near(there, self.volume(leant % "holed", rounded) * k**3, 1e-9)
 
+    def test_no_faces(self):
+        self.refused("type: deleted_faces, of: block, faces: []", "expected at least 1 value, found 0")
+
 
 
 if __name__ == "__main__":

@@ -15,7 +15,13 @@ namespace lekalo::geometry {
 
 namespace {
 
-// The largest share of the sizes of a request with which the body can be made.
+// To five digits.
+double rounded_down(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 4);
+  return std::floor(x / unit) * unit;
+}
+
+// The largest share of the sizes of a request with which the body can be made, to the digits of its first size.
 double largest_share(const Body& body, const std::vector<BlendRequest>& requests, Corners corners, size_t which) {
   const auto works = [&](double share) {
     std::vector<BlendRequest> smaller = requests;
@@ -29,7 +35,9 @@ double largest_share(const Body& body, const std::vector<BlendRequest>& requests
   };
   double lo = 0, hi = 1;
   constexpr int kHalvings = 24;
-  for (int k = 0; k < kHalvings; ++k) (works(0.5 * (lo + hi)) ? lo : hi) = 0.5 * (lo + hi);
+  const double size = requests[which].rule.sizes[0](0.0);
+  const auto is_known = [&] { return lo > 0 && rounded_down(lo * size) == rounded_down(hi * size); };
+  for (int k = 0; k < kHalvings && !is_known(); ++k) (works(0.5 * (lo + hi)) ? lo : hi) = 0.5 * (lo + hi);
   return lo;
 }
 
@@ -38,12 +46,6 @@ ScalarLaw law_of(const Expression& size) {
   const auto& names = size.names();
   const bool varies = std::find(names.begin(), names.end(), "s") != names.end();
   return varies ? ScalarLaw(size) : ScalarLaw(size(0.0));
-}
-
-// To five digits.
-double rounded_down(double x) {
-  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 4);
-  return std::floor(x / unit) * unit;
 }
 
 // The edges that an item of the list means.

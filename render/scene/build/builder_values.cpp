@@ -290,6 +290,7 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
         }
         all.push_back(*one);
       }
+      if (!check_count(type, value, all.size())) return std::nullopt;
       return std::any(all);
     }
     case Kind::command:
