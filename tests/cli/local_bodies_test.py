@@ -91,6 +91,12 @@ class LocalBodies(ProgramTest):
         self.refused("type: deleted_faces, of: block, faces: []", "expected at least 1 value, found 0")
 
 
+    def test_what_does_not_follow(self):
+        more = BLOCK + "  rounded: { type: fillet_body, of: block, fillets: { edges: { of_face: z_max }, radius: 0.3 } }\n"
+        for change in "type: moved_faces, of: rounded, faces: block.x_max, distance: 0.1", "type: refilleted_body, of: rounded, radius: 0.2":
+            self.refused(change, "meets others in a corner, which does not follow", more=more)
+        self.refused("type: drafted_faces, of: { type: cone_body, radius: 2, height: 3 }, faces: side, angle: 5", "runs to a point")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -29,6 +29,23 @@ std::vector<SurfacePtr> surfaces_of(const Body& body) {
   return surfaces;
 }
 
+// An error tells of fillets that meet others in a corner, which would have to change with them.
+Body with_faces_on(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field, const char* hint) {
+  try {
+    FaceReplacement made = replace_faces(body, surfaces, field);
+    check_replacement(made, field, hint);
+    return std::move(made.body);
+  } catch (const FieldError& error) {
+    for (const PlaneFillet& fillet : plane_fillets(body))
+      if (surfaces[fillet.face] != body.faces[fillet.face].surface && ends_in_corner(body, fillet))
+        throw FieldError(field, error.what(),
+                         fmt::format("the fillet {} meets others in a corner, which does not follow: change the body "
+                                     "before it is filleted",
+                                     name_of_face(body, fillet.face)));
+    throw;
+  }
+}
+
 Body moved(const Fields& f) {
   const Body& body = *f.body("of");
   if (f.has("by") == f.has("distance"))
@@ -43,9 +60,7 @@ Body moved(const Fields& f) {
                               : offset_support(face.surface, side * f.number("distance"), field);
   }
   let_fillets_follow(body, surfaces, field);
-  FaceReplacement made = replace_faces(body, surfaces, field);
-  check_replacement(made, field, "move them by less");
-  return std::move(made.body);
+  return with_faces_on(body, surfaces, field, "move them by less");
 }
 
 struct Draft {
@@ -126,6 +141,13 @@ std::shared_ptr<const ConeSurface> cylinder_of(const Surface& surface) {
   return std::make_shared<CylinderSurface>(frame, circle->radius(), height, e->domain());
 }
 
+bool has_pole(const Body& body, int face) {
+  for (const int l : body.faces[face].loops)
+    for (const int c : body.loops[l].coedges)
+      if (body.edges[body.coedges[c].edge].kind == EdgeKind::pole) return true;
+  return false;
+}
+
 Body leant(const Fields& f) {
   const Body& body = *f.body("of");
   const Vec3 d = f.has("direction") ? f.vec3("direction") : f.frame("neutral").z;
@@ -137,6 +159,9 @@ Body leant(const Fields& f) {
     const Face& face = body.faces[k];
     const std::string name = name_of_face(body, k);
     const double side = face.forward == (face.surface->normal_sign() > 0) ? 1 : -1;
+    if (!plane_of(face.surface) && has_pole(body, k))
+      throw FieldError("faces", fmt::format("the face {} runs to a point, which cannot stay where it leans", name),
+                       "a face without an apex");
     const SurfacePtr plain = unwrapped(face.surface);
     std::shared_ptr<Surface> made;
     if (const auto frame = plane_of(face.surface))
@@ -153,9 +178,7 @@ Body leant(const Fields& f) {
     made->set_reversed(face.surface->reversed());
     surfaces[k] = made;
   }
-  FaceReplacement made = replace_faces(body, surfaces, "angle");
-  check_replacement(made, "angle", "a smaller angle");
-  return std::move(made.body);
+  return with_faces_on(body, surfaces, "angle", "a smaller angle");
 }
 
 Body refilleted(const Fields& f) {
@@ -175,17 +198,17 @@ Body refilleted(const Fields& f) {
   }
   std::vector<SurfacePtr> surfaces = surfaces_of(body);
   for (const PlaneFillet& fillet : fillets) surfaces[fillet.face] = with_radius(body, fillet, f.number("radius"));
-  FaceReplacement made = replace_faces(body, surfaces, "radius");
-  check_replacement(made, "radius", "a smaller radius");
-  return std::move(made.body);
+  return with_faces_on(body, surfaces, "radius", "a smaller radius");
 }
 
 }  // namespace
 
 TypeDeclaration refilleted_body_type() {
-  return declare(Category::body, "refilleted_body",
-                 "A body whose fillets between plane faces get another radius: cylinders that are smooth with a plane "
-                 "on both sides are recognised as fillets. (deleted_faces removes them.)")
+  return declare(
+             Category::body, "refilleted_body",
+             "A body whose fillets between plane faces get another radius: cylinders that are smooth with a plane "
+             "on both sides are recognised as fillets, and change where they meet no other in a corner. (deleted_faces "
+             "removes them.)")
       .example(
           "of: { type: extrusion_body, of: { type: rectangle, size: [3, 2], corner_radius: 0.5 }, along: [0, 0, "
           "1] }, radius: 0.2")
@@ -198,7 +221,8 @@ TypeDeclaration refilleted_body_type() {
 TypeDeclaration moved_faces_type() {
   return declare(Category::body, "moved_faces",
                  "A body some of whose faces are moved, by a transformation or along their normals, while the others "
-                 "stay on their surfaces and follow: they grow and shrink. Fillets between planes go along.")
+                 "stay on their surfaces and follow: they grow and shrink. Fillets between planes go along, but for "
+                 "those that meet another in a corner.")
       .example("of: { type: box, size: [3, 2, 1] }, faces: z_max, distance: 0.5")
       .field("of", reference({Category::body}), "the body; closed")
       .field("faces", texts().count(1), "names or numbers of the faces, as 'lekalo measure --topology' gives them")
@@ -211,7 +235,8 @@ TypeDeclaration moved_faces_type() {
 TypeDeclaration drafted_faces_type() {
   return declare(Category::body, "drafted_faces",
                  "A body some of whose faces lean: plane ones turn about the line in which they meet the neutral "
-                 "plane, cylinders and cones become cones with the same circle in it. The neighbours follow.")
+                 "plane, cylinders and cones cut off before their apex become cones with the same circle in it. The "
+                 "neighbours follow.")
       .example("of: { type: box, size: [3, 2, 1] }, faces: [x_min, x_max, y_min, y_max], angle: 10")
       .field("of", reference({Category::body}), "the body; closed")
       .field("faces", texts().count(1), "names or numbers of the faces, as 'lekalo measure --topology' gives them")

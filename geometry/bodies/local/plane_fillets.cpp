@@ -81,6 +81,15 @@ std::vector<PlaneFillet> plane_fillets(const Body& body) {
   return result;
 }
 
+bool ends_in_corner(const Body& body, const PlaneFillet& fillet) {
+  for (const int l : body.faces[fillet.face].loops)
+    for (const int c : body.loops[l].coedges)
+      if (body.edges[body.coedges[c].edge].coedges.size() == 2 &&
+          !plane_of(body.faces[face_of_coedge(body, coedge_partner(body, c))].surface))
+        return true;
+  return false;
+}
+
 SurfacePtr with_radius(const Body& body, const PlaneFillet& fillet, double radius) {
   const SurfacePtr old = unwrapped(body.faces[fillet.face].surface);
   const Vec3 apex = apex_of(*plane_of(body.faces[fillet.planes[0]].surface),

@@ -20,6 +20,9 @@ struct PlaneFillet {
 std::optional<PlaneFillet> plane_fillet(const Body& body, int face);
 std::vector<PlaneFillet> plane_fillets(const Body& body);
 
+// It meets another fillet or a ball at an end, with which it does not change.
+bool ends_in_corner(const Body& body, const PlaneFillet& fillet);
+
 // The fillet's surface with another radius between the same planes, its parameters unchanged.
 SurfacePtr with_radius(const Body& body, const PlaneFillet& fillet, double radius);
 
