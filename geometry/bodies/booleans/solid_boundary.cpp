@@ -41,11 +41,16 @@ void name_faces(Body& body, const std::string& name) {
   for (Face& face : body.faces) prefix(face.origin);
 }
 
-BodyPtr made(const Csg& solid) {
+// What half-spaces among the operands have to reach around.
+Box3 extent_of(const Csg& solid) {
   Box3 all;
   for (const ShapePtr& operand : solid.operands())
     if (const Box3 box = operand->bounds(); box.bounded()) all.include(box);
-  if (all.empty()) all = solid.bounds();
+  return all.empty() ? solid.bounds() : all;
+}
+
+BodyPtr made(const Csg& solid) {
+  const Box3 all = extent_of(solid);
   if (solid.operation() == Csg::Operation::unite && !solid.bounds().bounded())
     throw std::invalid_argument("it is unbounded");
   Body result;
@@ -85,6 +90,20 @@ bool has_boundary(const Shape& shape) {
 }
 
 BodyPtr boundary_of(const ShapePtr& shape) { return body_of(shape, Affine(), shape->bounds()); }
+
+std::vector<BodyPtr> operands_of(const ShapePtr& shape) {
+  Affine map;
+  const Shape* inner = shape.get();
+  while (const auto* moved = dynamic_cast<const TransformedShape*>(inner)) {
+    map = map * moved->map();
+    inner = moved->original().get();
+  }
+  std::vector<BodyPtr> bodies;
+  if (const auto* solid = dynamic_cast<const Csg*>(inner))
+    for (const ShapePtr& operand : solid->operands())
+      bodies.push_back(std::make_shared<Body>(transformed(*body_of(operand, Affine(), extent_of(*solid)), map)));
+  return bodies;
+}
 
 bool makes_boundary(std::string_view type) { return type == "union" || type == "intersection" || type == "difference"; }
 

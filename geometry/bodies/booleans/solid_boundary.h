@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "geometry/body.h"
 #include "geometry/shape.h"
@@ -14,6 +15,10 @@ bool has_boundary(const Shape& shape);
 // Made at the first question and kept with the solid; faces are named by their operand. Throws BooleanError,
 // std::invalid_argument where has_boundary() is false or an unbounded half-space is left.
 BodyPtr boundary_of(const ShapePtr& shape);
+
+// The boundaries of what such a solid is put together of, where it stands; none of a solid that is not put together.
+// Throws as boundary_of() does.
+std::vector<BodyPtr> operands_of(const ShapePtr& shape);
 
 // What lies behind a plane, which its normal looks away from, as far as a box reaches: a block, its face on the plane
 // called z_max.

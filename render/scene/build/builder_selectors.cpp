@@ -10,6 +10,7 @@
 #include <array>
 #include <set>
 
+#include "geometry/bodies/booleans/solid_boundary.h"
 #include "geometry/bodies/topology/landmarks.h"
 #include "geometry/expression/nearest_name.h"
 #include "geometry/transformed.h"
@@ -135,13 +136,24 @@ std::optional<Selector> Builder::read_selector(const Value& map, const Counters&
   return good ? std::optional(std::move(selector)) : std::nullopt;
 }
 
-// The bodies from which a body was made.
+// The bodies from which a body was made, or a solid put together.
 std::optional<std::vector<BodyPtr>> Builder::read_operands(const Value& value, const Counters& counters) {
-  static const Category wanted[] = {Category::body};
+  static const Category wanted[] = {Category::body, Category::shape};
   const auto made = refer(value, counters, wanted);
   if (!made) return std::nullopt;
-  const auto found = operands_.find(std::any_cast<const BodyPtr&>(made->value).get());
-  if (found != operands_.end() && !found->second.empty()) return found->second;
+  std::vector<BodyPtr> operands;
+  if (const auto* solid = std::any_cast<geometry::ShapePtr>(&made->value)) {
+    try {
+      operands = geometry::operands_of(*solid);
+    } catch (const std::exception& error) {
+      diagnostics_.error(value.place, fmt::format("the boundary of this solid: {}", error.what()));
+      return std::nullopt;
+    }
+  } else if (const auto found = operands_.find(std::any_cast<const BodyPtr&>(made->value).get());
+             found != operands_.end()) {
+    operands = found->second;
+  }
+  if (!operands.empty()) return operands;
   diagnostics_.error(value.place, fmt::format("'{}' is made of no other body: all of its edges are new", value.text),
                      "name the result of an operation on bodies");
   return std::nullopt;

@@ -14,7 +14,10 @@ const std::string kThings =
     "  part: { type: box, size: [2, 3, 4] }\n"
     "  hole: { repeat: { i: 0..2 }, type: cylinder_body, axis: { through: [i, 0, 0], along: z }, radius: 0.2, heights: "
     "[0, 1] }\n"
-    "  apart: { type: exploded_body, of: part, factor: 1 }\n";
+    "  apart: { type: exploded_body, of: part, factor: 1 }\n"
+    "  peg: { type: cylinder_body, radius: 0.5, height: 2, center: [1, 1.5, 3] }\n"
+    "  whole: { type: union, of: [part, peg] }\n"
+    "  aside: { type: difference, of: part, minus: peg, transform: { translate: [9, 0, 0] } }\n";
 
 geometry::CurvePtr curve(const std::string& written) {
   const BuiltText scene =
@@ -59,6 +62,11 @@ TEST(Selectors, OperandsLendTheirNames) {
   EXPECT_EQ(objects("apart.part.x_min").size(), 1u);
   EXPECT_EQ(objects("apart.x_min").size(), 1u);
   EXPECT_EQ(objects("{ of: apart, new_in: apart, of_face: part.x_max }").size(), 4u);
+}
+
+TEST(Selectors, SolidsPutTogetherHaveNewEdges) {
+  EXPECT_NEAR(curve("{ of: whole, new_in: whole }")->point(0.3).z, 4, 1e-12);
+  EXPECT_EQ(objects("{ of: aside, new_in: aside }").size(), 1u);
 }
 
 TEST(Selectors, Places) {
