@@ -93,8 +93,11 @@ const render::Entity* find_part(const render::LoadedScene& scene, const std::str
   for (size_t dot = name.rfind('.'); dot != std::string::npos && dot > 0; dot = name.rfind('.', dot - 1)) {
     const auto whole = scene.model->geometry.find(name.substr(0, dot));
     if (whole == scene.model->geometry.end()) continue;
-    const render::Entity entity = by_boundary(whole->second);
+    std::string no_boundary;
+    const render::Entity entity = by_boundary(whole->second, &no_boundary);
     const auto* shared = std::get_if<geometry::BodyPtr>(&entity);
+    if (!no_boundary.empty())
+      throw UsageError(fmt::format("'{}': the boundary of '{}' is not made: {}", name, whole->first, no_boundary));
     if (!shared) return nullptr;
     const geometry::Body& body = **shared;
     const std::string rest = name.substr(dot + 1);

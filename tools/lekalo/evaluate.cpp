@@ -266,7 +266,10 @@ int run(const Options& options) {
         "evaluate takes --at T or --at U,V, --uv U,V, --table FILE, or of a curve --divided-difference T,T,..\n"
         "'lekalo evaluate --help' shows how to use it");
   const render::LoadedScene scene = options.scene.load();
-  const render::Entity entity = by_boundary(find_geometry(scene, options.name));
+  std::string no_boundary;
+  const render::Entity entity = by_boundary(find_geometry(scene, options.name), &no_boundary);
+  if (!no_boundary.empty())
+    throw UsageError(fmt::format("'{}' has no faces: its boundary is not made: {}", options.name, no_boundary));
   const bool is_curve = std::holds_alternative<geometry::CurvePtr>(entity);
   if (!options.along.empty() && is_curve) throw UsageError("--along belongs to surfaces");
   if (!is_curve && (options.placement || !options.on.empty()))
