@@ -155,7 +155,9 @@ class Exporting {
     } else if (std::holds_alternative<MeshPtr>(shape.entity)) {
       throw std::invalid_argument("it is a mesh; STEP files hold exact shapes, OBJ, PLY and STL files meshes");
     } else {
-      throw std::invalid_argument("it is met by rays only and has no boundary representation");
+      throw std::invalid_argument(shape.no_boundary.empty()
+                                      ? "it is met by rays only and has no boundary representation"
+                                      : "its boundary is not made: " + shape.no_boundary);
     }
   }
 

@@ -16,6 +16,7 @@ struct StepShape {
   Entity entity;
   geometry::Affine to_world;
   std::optional<geometry::Vec3> color;  // sRGB, 0 to 1
+  std::string no_boundary;              // why a solid that might have one has no boundary here
 };
 
 struct StepFile {

@@ -19,6 +19,14 @@ objects:
   - { shape: rim, transform: { translate: [10, 0, 0] } }
 """
 
+VIVIANI = """
+lekalo: 1
+geometry:
+  ball: { type: ball, radius: 1 }
+  tool: { type: cylinder_body, center: [0.5, 0, -2], radius: 0.5, height: 4 }
+  window: { type: difference, of: ball, minus: tool }
+"""
+
 
 class Step(ProgramTest):
     def exported(self, *arguments, unit="cm"):
@@ -69,6 +77,15 @@ class Step(ProgramTest):
         _, errors = self.run_program("export", "scene.yaml", "blob", "-o", "y.step", code=2)
         self.assertIn("there is nothing to export: 'blob' is left out", errors)
         self.assertFalse((self.folder / "y.step").exists())
+
+    def test_why_a_solid_has_no_boundary(self):
+        self.write("viviani.yaml", VIVIANI)
+        _, errors = self.run_program("export", "viviani.yaml", "window", "-o", "z.step", code=2)
+        self.assertIn("'window' is left out: its boundary is not made: ", errors)
+        _, errors = self.run_program("measure", "viviani.yaml", "window.edge.0", code=2)
+        self.assertIn("'window.edge.0': the boundary of 'window' is not made: ", errors)
+        _, errors = self.run_program("evaluate", "viviani.yaml", "window", "--uv", "0,0", code=2)
+        self.assertIn("'window' has no faces: its boundary is not made: ", errors)
 
 
 if __name__ == "__main__":

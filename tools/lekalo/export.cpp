@@ -103,13 +103,19 @@ int export_step(const Options& options, const std::string& output) {
     const Affine moved = to_world * object.transform;
     if (!object.clips.empty())
       notes.insert(fmt::format("'{}' is written whole: its clip planes are not applied", object.name));
-    if (const auto* group = std::get_if<render::GroupPtr>(&object.shape))
+    if (const auto* group = std::get_if<render::GroupPtr>(&object.shape)) {
       for (const render::Object& member : (*group)->objects) add(member, moved);
-    else
-      shapes.push_back({object.name, by_boundary(object.shape), moved, color_of(object)});
+    } else {
+      std::string no_boundary;
+      const render::Entity shape = by_boundary(object.shape, &no_boundary);
+      shapes.push_back({object.name, shape, moved, color_of(object), no_boundary});
+    }
   };
-  for (const std::string& name : options.names)
-    shapes.push_back({name, by_boundary(find_geometry(scene, name)), Affine(), {}});
+  for (const std::string& name : options.names) {
+    std::string no_boundary;
+    const render::Entity shape = by_boundary(find_geometry(scene, name), &no_boundary);
+    shapes.push_back({name, shape, Affine(), {}, no_boundary});
+  }
   if (options.names.empty())
     for (const render::Object& object : scene.model->objects) add(object, Affine());
   render::StepFile file;
