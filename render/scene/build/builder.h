@@ -145,6 +145,13 @@ class Builder {
   std::optional<std::vector<geometry::BodyPtr>> read_operands(const Value& value, const Counters& counters);
   void note_operands(const std::any& made, const std::vector<Field>& declared, const Fields& fields,
                      const Affine& placed);
+  struct Choice {
+    geometry::BodyPtr body;
+    geometry::Element element;
+    std::vector<int> indices;
+  };
+  std::optional<Choice> choose(const Value& map, const Counters& counters, std::span<const Category> wanted);
+  std::optional<Choice> choose_one(const Value& map, const Counters& counters, std::span<const Category> wanted);
   std::optional<std::vector<Built>> selected(const Value& map, const Counters& counters,
                                              std::span<const Category> wanted);
   std::optional<std::vector<Built>> elements_called(const geometry::Body& body, std::string_view name,

@@ -1,9 +1,14 @@
 // Faces, edges and vertices of bodies where a surface, a curve or a point may stand, and the places that they make.
 //
-//   { of: part, face: end }   { of: part, edge: 3 }   { of: part, vertex: start.2 }
-//   { of: part, between: [end, side] }   { of: part, of_face: end }   { of: part, parallel: z }   { of: part, new_in:
-//   part } { of: part, extreme: z } the farthest of its edges, faces or vertices; as a point: that of the whole all:
-//   [..], not: {..} further conditions
+//   { of: part, face: end }              by name or number
+//   { of: part, edge: 3 }
+//   { of: part, vertex: start.2 }
+//   { of: part, between: [end, side] }   edges in which two faces meet
+//   { of: part, of_face: end }           what belongs to a face
+//   { of: part, parallel: z }
+//   { of: part, new_in: part }           what none of the bodies had of which it is made
+//   { of: part, extreme: z }             the farthest of its edges, faces or vertices; as a point: that of the whole
+//   all: [..], not: {..}                 further conditions
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -178,15 +183,16 @@ void Builder::note_operands(const std::any& made, const std::vector<Field>& decl
     if (fields.has(field.name)) look(fields.any(field.name));
 }
 
-std::optional<std::vector<Built>> Builder::selected(const Value& map, const Counters& counters,
-                                                    std::span<const Category> wanted) {
+// What of a body a selector means: at least one thing, of a kind that is wanted.
+std::optional<Builder::Choice> Builder::choose(const Value& map, const Counters& counters,
+                                               std::span<const Category> wanted) {
   static const Category bodies[] = {Category::body};
   const auto of = refer(*map.find("of"), counters, bodies);
   const auto selector = read_selector(map, counters);
   if (!of || !selector) return std::nullopt;
-  const Body& body = *std::any_cast<const BodyPtr&>(of->value);
+  const BodyPtr& body = std::any_cast<const BodyPtr&>(of->value);
   const Element element = element_of(map, wanted);
-  const auto chosen = attempt(map, "selector", [&] { return geometry::select(body, element, *selector); });
+  auto chosen = attempt(map, "selector", [&] { return geometry::select(*body, element, *selector); });
   if (!chosen) return std::nullopt;
   if (!is_wanted(wanted, category_of(element))) {
     const Category category = category_of(element);
@@ -199,9 +205,34 @@ std::optional<std::vector<Built>> Builder::selected(const Value& map, const Coun
                        "'lekalo measure --topology' lists its faces, edges and vertices");
     return std::nullopt;
   }
+  return Choice{body, element, *std::move(chosen)};
+}
+
+// Where one thing is wanted.
+std::optional<Builder::Choice> Builder::choose_one(const Value& map, const Counters& counters,
+                                                   std::span<const Category> wanted) {
+  auto choice = choose(map, counters, wanted);
+  if (!choice || choice->indices.size() == 1) return choice;
+  std::vector<std::string> names;
+  for (const int k : choice->indices) names.push_back(geometry::described(*choice->body, choice->element, k));
+  diagnostics_.error(map.place, fmt::format("{} things are meant by this; one is wanted here", names.size()),
+                     "they are " + listed(names, kMostCandidates));
+  return std::nullopt;
+}
+
+std::optional<std::vector<Built>> Builder::selected(const Value& map, const Counters& counters,
+                                                    std::span<const Category> wanted) {
+  const auto choice = choose(map, counters, wanted);
+  if (!choice) return std::nullopt;
   std::vector<Built> all;
-  for (const int k : *chosen) all.push_back(built(body, element, k));
+  for (const int k : choice->indices) all.push_back(built(*choice->body, choice->element, k));
   return all;
+}
+
+std::optional<Built> Builder::select_one(const Value& map, const Counters& counters, std::span<const Category> wanted) {
+  const auto choice = choose_one(map, counters, wanted);
+  if (!choice) return std::nullopt;
+  return built(*choice->body, choice->element, choice->indices.front());
 }
 
 // The faces, edges or vertices that a name stands for: the first kind of which there are any, of those that are wanted.
@@ -228,27 +259,9 @@ std::optional<std::vector<Built>> Builder::elements_called(const Body& body, std
   return std::nullopt;
 }
 
-// Where one thing is wanted.
-std::optional<Built> Builder::select_one(const Value& map, const Counters& counters, std::span<const Category> wanted) {
-  auto all = selected(map, counters, wanted);
-  if (!all) return std::nullopt;
-  if (all->size() == 1) return std::move(all->front());
-  static const Category bodies[] = {Category::body};
-  const auto of = refer(*map.find("of"), counters, bodies);
-  const auto selector = read_selector(map, counters);
-  const Body& body = *std::any_cast<const BodyPtr&>(of->value);
-  const Element element = element_of(map, wanted);
-  std::vector<std::string> names;
-  for (const int k : geometry::select(body, element, *selector)) names.push_back(geometry::described(body, element, k));
-  diagnostics_.error(map.place, fmt::format("{} things are meant by this; one is wanted here", names.size()),
-                     "they are " + listed(names, kMostCandidates));
-  return std::nullopt;
-}
-
 std::optional<Vec3> Builder::read_selected_place(const Value& map, const Counters& counters) {
   static const Category wanted[] = {Category::curve, Category::surface, Category::body};
   static const Category vertices[] = {Category::point};
-  static const Category bodies[] = {Category::body};
   if (map.find("extreme") && map.entries.size() == 2) {
     const auto of = refer(*map.find("of"), counters, wanted);
     const auto way = read_vector(*map.find("extreme"), counters, true);
@@ -272,14 +285,8 @@ std::optional<Vec3> Builder::read_selected_place(const Value& map, const Counter
     const auto edge = select_one(map, counters, curves);
     return edge ? std::optional(geometry::middle_of(*std::any_cast<const CurvePtr&>(edge->value))) : std::nullopt;
   }
-  const auto of = refer(*map.find("of"), counters, bodies);
-  const auto selector = read_selector(map, counters);
-  if (!of || !selector) return std::nullopt;
-  const Body& body = *std::any_cast<const BodyPtr&>(of->value);
-  const auto chosen = attempt(map, "selector", [&] { return geometry::select(body, Element::face, *selector); });
-  if (!chosen) return std::nullopt;
-  if (chosen->size() != 1) return select_one(map, counters, std::array{Category::surface}), std::nullopt;
-  return geometry::inner_point(body, chosen->front());
+  const auto face = choose_one(map, counters, std::array{Category::surface});
+  return face ? std::optional(geometry::inner_point(*face->body, face->indices.front())) : std::nullopt;
 }
 
 // Where a dimension of such a place may begin: on the border of a face, anywhere at the end of a body.
