@@ -1,6 +1,6 @@
 // Faces, edges and vertices of bodies where a surface, a curve or a point may stand, and the places that they make.
 //
-//   { of: part, face: end }              by name or number
+//   { of: part, face: end }              by name or number; in a repeat also by a formula: edge: 2*i
 //   { of: part, edge: 3 }
 //   { of: part, vertex: start.2 }
 //   { of: part, between: [end, side] }   edges in which two faces meet
@@ -58,6 +58,16 @@ Element element_of(const Value& map, std::span<const Category> wanted) {
   return Element::vertex;
 }
 
+// A formula in which a counter of the repeats around it stands: i, 2*i + 1.
+bool speaks_of_counters(const Value& value, const Counters& counters) {
+  if (value.quoted || counters.values.empty()) return false;
+  const auto parsed = geometry::Expression::parse(value.text);
+  const auto* formula = std::get_if<geometry::Expression>(&parsed);
+  return formula && std::any_of(counters.values.begin(), counters.values.end(), [&](const auto& counter) {
+           return std::find(formula->names().begin(), formula->names().end(), counter.name) != formula->names().end();
+         });
+}
+
 Built built(const Body& body, Element element, int index) {
   if (element == Element::face) return {Category::surface, body.faces[index].surface};
   if (element == Element::edge) return {Category::curve, body.edges[index].curve};
@@ -75,7 +85,7 @@ bool is_selector(const Value& map) {
   return std::any_of(map.entries.begin(), map.entries.end(), is_meant);
 }
 
-// A name, a number of the list of 'lekalo measure --topology', or several of them.
+// A name, a number of the list of 'lekalo measure --topology' or a formula of counters for it, or several of them.
 std::optional<std::vector<std::string>> Builder::read_element_names(const Value& value, const Counters& counters,
                                                                     const char* number_of) {
   std::vector<std::string> names;
@@ -86,6 +96,12 @@ std::optional<std::vector<std::string>> Builder::read_element_names(const Value&
       diagnostics_.error(name.place, fmt::format("expected a name, found {}", kind_name(name)),
                          "'lekalo measure --topology' lists the names");
       return std::nullopt;
+    }
+    if (speaks_of_counters(name, item.counters)) {
+      const auto number = parameters_.integer(name, item.counters);
+      if (!number) return std::nullopt;
+      names.push_back(fmt::format("{}.{}", number_of, *number));
+      continue;
     }
     const bool is_number = std::all_of(name.text.begin(), name.text.end(), [](char c) { return c >= '0' && c <= '9'; });
     names.push_back(is_number ? fmt::format("{}.{}", number_of, name.text) : name.text);

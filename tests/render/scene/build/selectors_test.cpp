@@ -58,6 +58,18 @@ TEST(Selectors, ManyAreManyObjects) {
   EXPECT_EQ(objects("{ of: part, parallel: x, not: { of_face: z_max } }").size(), 2u);
 }
 
+TEST(Selectors, NumbersMayBeFormulasOfCounters) {
+  const BuiltText scene = build_text(kThings +
+                                     "  some: { repeat: { i: 1..2 }, of: part, edge: 2*i + 1 }\n"
+                                     "  third: { of: part, edge: 3 }\nlights: {}\n");
+  EXPECT_EQ(scene.said, "");
+  const auto begin = [&](const char* name) {
+    return std::get<geometry::CurvePtr>(scene.model.geometry.at(name))->point(0);
+  };
+  EXPECT_EQ(begin("some.0"), begin("third"));
+  EXPECT_NE(begin("some.1"), begin("third"));
+}
+
 TEST(Selectors, OperandsLendTheirNames) {
   EXPECT_EQ(objects("apart.part.x_min").size(), 1u);
   EXPECT_EQ(objects("apart.x_min").size(), 1u);
