@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/bodies/constructions/profile_offset.h"
+#include "geometry/bodies/topology/entity_names.h"
 #include "geometry/bodies/topology/selection.h"
 #include "geometry/body.h"
 #include "geometry/curves/derived/composite_curve.h"
@@ -46,7 +47,7 @@ CurvePtr line_along(const Fields& f) {
     throw FieldError("face", "the face has a pole in the middle of its parameters", "another face");
   for (CurvePtr& segment : segments) segment = transformed(segment, Affine::scaling(lengths));
   // In the parameter plane the face lies to the left where its normal is r_u x r_v.
-  const bool left = face.forward == (face.surface->normal_sign() > 0);
+  const bool left = outward_side(face) > 0;
   const double inset = f.number("inset");
   std::vector<CurvePtr> moved = mitred_offset(segments, {0, 0, 1}, left ? inset : -inset, true, "inset");
   const Affine back = Affine::scaling(1.0 / lengths);

@@ -8,6 +8,7 @@
 #include "geometry/bodies/constructions/swept_body.h"
 #include "geometry/bodies/local/crossing_faces.h"
 #include "geometry/bodies/local/new_faces.h"
+#include "geometry/bodies/local/support.h"
 #include "geometry/bodies/primitives/construct.h"
 #include "geometry/curves/operations/surface_curve.h"
 #include "geometry/surfaces/analytic/plane.h"
@@ -249,23 +250,12 @@ class Replacing {
   // The face lies to the left of its loop.
   void turn_to_loop(int f) {
     Face& face = made_.body.faces[f];
-    double area = 0;
-    Vec2 last(0), first(0);
-    bool begun = false;
+    std::vector<Body::Use> uses;
     for (const int c : made_.body.loops[face.loops[0]].coedges) {
       const Coedge& u = made_.body.coedges[c];
-      const Interval t = u.image->domain();
-      for (int k = 0; k <= 64; ++k) {
-        const double at = double(u.forward ? k : 64 - k) / 64;
-        const Vec2 p(u.image->point(t.lo + at * t.width()));
-        if (!begun)
-          first = p, begun = true;
-        else
-          area += (last.x - first.x) * (p.y - first.y) - (last.y - first.y) * (p.x - first.x);
-        last = p;
-      }
+      uses.push_back({u.edge, u.forward, u.image});
     }
-    face.forward = (area > 0) == (face.surface->normal_sign() > 0);
+    face.forward = (area_of_loop(uses) > 0) == (face.surface->normal_sign() > 0);
   }
 
   int add_face_on(int f, const std::vector<std::vector<Body::Use>>& loops) {

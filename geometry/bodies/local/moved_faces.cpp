@@ -11,6 +11,7 @@
 #include "geometry/bodies/local/edge_curve.h"
 #include "geometry/bodies/local/face_replacement.h"
 #include "geometry/bodies/local/plane_fillets.h"
+#include "geometry/bodies/topology/entity_names.h"
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/surfaces/analytic/cone.h"
@@ -55,7 +56,7 @@ Body moved(const Fields& f) {
   std::vector<SurfacePtr> surfaces = surfaces_of(body);
   for (const int k : faces_named(body, f, "faces")) {
     const Face& face = body.faces[k];
-    const double side = face.forward == (face.surface->normal_sign() > 0) ? 1 : -1;
+    const double side = outward_side(face);
     surfaces[k] = f.has("by") ? moved_support(unwrapped(face.surface), f.transform("by"))
                               : offset_support(face.surface, side * f.number("distance"), field);
   }
@@ -158,7 +159,7 @@ Body leant(const Fields& f) {
   for (const int k : faces_named(body, f, "faces")) {
     const Face& face = body.faces[k];
     const std::string name = name_of_face(body, k);
-    const double side = face.forward == (face.surface->normal_sign() > 0) ? 1 : -1;
+    const double side = outward_side(face);
     if (!plane_of(face.surface) && has_pole(body, k))
       throw FieldError("faces", fmt::format("the face {} runs to a point, which cannot stay where it leans", name),
                        "a face without an apex");

@@ -7,6 +7,7 @@
 
 #include "geometry/bodies/constructions/swept_body.h"
 #include "geometry/bodies/local/plane_seams.h"
+#include "geometry/bodies/topology/entity_names.h"
 #include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/curves/operations/surface_curve.h"
 #include "geometry/surfaces/analytic/plane.h"
@@ -108,7 +109,7 @@ Vec3 NewFaces::normal_at(const Sector& s) const {
   const Vec2 at = near(s.out, false);
   const Vec3 n =
       planes_[s.face] ? planes_[s.face]->z : supports_[s.face]->normal_sign() * supports_[s.face]->normal(at.x, at.y);
-  return face.forward == (face.surface->normal_sign() > 0) ? n : -n;
+  return outward_side(face) * n;
 }
 
 bool NewFaces::is_changed(const Corner& corner) const {

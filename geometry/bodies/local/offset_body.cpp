@@ -14,6 +14,7 @@
 #include "geometry/bodies/local/plane_seams.h"
 #include "geometry/bodies/local/round_offset.h"
 #include "geometry/bodies/local/untangled.h"
+#include "geometry/bodies/topology/entity_names.h"
 
 namespace lekalo::geometry {
 
@@ -63,7 +64,7 @@ FaceReplacement plain_offset(const Body& body, const std::vector<double>& distan
   std::vector<double> shares;
   for (size_t k = 0; k < body.faces.size(); ++k) {
     const Face& face = body.faces[k];
-    const double side = face.forward == (face.surface->normal_sign() > 0) ? 1 : -1;
+    const double side = outward_side(face);
     shares.push_back(share * distances[k]);
     surfaces.push_back(offset_support(face.surface, side * shares[k], field));
   }

@@ -8,6 +8,7 @@
 #include "geometry/bodies/local/corners.h"
 #include "geometry/bodies/local/edge_curve.h"
 #include "geometry/bodies/local/support.h"
+#include "geometry/bodies/topology/edge_selection.h"
 #include "geometry/surfaces/analytic/cone.h"
 #include "geometry/surfaces/swept/extrusion.h"
 #include "geometry/transformed.h"
@@ -15,8 +16,6 @@
 namespace lekalo::geometry {
 
 namespace {
-
-constexpr double kSmooth = 1e-6;
 
 struct Cylinder {
   Vec3 center, axis;
@@ -33,18 +32,6 @@ std::optional<Cylinder> cylinder_of(const Surface& surface) {
   const Vec3 axis = glm::normalize(e->along());
   if (glm::length(glm::cross(axis, circle->frame().z)) > 1e-12) return std::nullopt;
   return Cylinder{circle->frame().origin, axis, circle->radius()};
-}
-
-bool is_smooth(const Body& body, const Edge& edge) {
-  const Coedge &a = body.coedges[edge.coedges[0]], &b = body.coedges[edge.coedges[1]];
-  const Interval t = edge.curve->domain();
-  for (int k = 0; k <= 2; ++k) {
-    const double at = t.lo + 0.5 * k * t.width();
-    const Vec3 p = a.image->point(at), q = b.image->point(at);
-    const Vec3 m = body.normal(body.loops[a.loop].face, p.x, p.y), n = body.normal(body.loops[b.loop].face, q.x, q.y);
-    if (!(glm::length(glm::cross(m, n)) < kSmooth && glm::dot(m, n) > 0)) return false;
-  }
-  return true;
 }
 
 // The point in the plane across the axis through `center` where both planes meet it.
@@ -65,7 +52,7 @@ std::optional<PlaneFillet> plane_fillet(const Body& body, int face) {
       const Edge& edge = body.edges[body.coedges[c].edge];
       if (edge.kind != EdgeKind::regular || edge.coedges.size() != 2) continue;
       const int other = face_of_coedge(body, coedge_partner(body, c));
-      if (other == face || !plane_of(body.faces[other].surface) || !is_smooth(body, edge)) continue;
+      if (other == face || !plane_of(body.faces[other].surface) || is_sharp(body, body.coedges[c].edge)) continue;
       if (std::find(planes.begin(), planes.end(), other) == planes.end()) planes.push_back(other);
     }
   if (planes.size() != 2) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "geometry/bodies/local/support.h"
+#include "geometry/bodies/topology/entity_names.h"
 
 namespace lekalo::geometry {
 
@@ -30,7 +31,7 @@ std::vector<PlanePolygon> polygons_of(const Body& body) {
   for (size_t f = 0; f < body.faces.size(); ++f) {
     const Face& face = body.faces[f];
     Frame frame = *plane_of(face.surface);
-    if (face.forward != (face.surface->normal_sign() > 0)) frame = {frame.origin, frame.y, frame.x, -frame.z};
+    if (outward_side(face) < 0) frame = {frame.origin, frame.y, frame.x, -frame.z};
     PlanePolygon polygon{frame, {}, static_cast<int>(f)};
     for (const int l : face.loops) {
       polygon.loops.emplace_back();

@@ -6,26 +6,11 @@
 #include "geometry/bodies/constructions/swept_body.h"
 #include "geometry/bodies/local/corners.h"
 #include "geometry/bodies/local/support.h"
+#include "geometry/bodies/topology/entity_names.h"
 
 namespace lekalo::geometry {
 
 namespace {
-
-// Twice the area that a loop of images encloses, by chords.
-double area_of(const std::vector<Body::Use>& uses) {
-  std::vector<Vec2> points;
-  for (const Body::Use& u : uses) {
-    const Interval t = u.image->domain();
-    for (int k = 0; k < 64; ++k)
-      points.push_back(Vec2(u.image->point(t.lo + t.width() * (u.forward ? k : 64 - k) / 64)));
-  }
-  double sum = 0;
-  for (size_t k = 1; k + 1 < points.size(); ++k) {
-    const Vec2 a = points[k] - points[0], b = points[k + 1] - points[0];
-    sum += a.x * b.y - a.y * b.x;
-  }
-  return sum;
-}
 
 class Unseaming {
  public:
@@ -79,12 +64,13 @@ class Unseaming {
     if (!planes_[f]) {
       made_.add_face(face.surface, face.forward, face.origin, face.trimmed);
     } else {
-      std::stable_sort(loops.begin(), loops.end(),
-                       [](const auto& a, const auto& b) { return std::abs(area_of(a)) > std::abs(area_of(b)); });
+      std::stable_sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) {
+        return std::abs(area_of_loop(a)) > std::abs(area_of_loop(b));
+      });
       std::vector<CurvePtr> images;
       for (const auto& uses : loops)
         for (const Body::Use& u : uses) images.push_back(u.image);
-      add_plane_face(made_, *planes_[f], face.forward == (face.surface->normal_sign() > 0), face.origin, images);
+      add_plane_face(made_, *planes_[f], outward_side(face) > 0, face.origin, images);
     }
     for (const auto& uses : loops) made_.add_loop(f, uses);
   }

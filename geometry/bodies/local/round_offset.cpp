@@ -9,6 +9,7 @@
 #include "geometry/bodies/constructions/swept_body.h"
 #include "geometry/bodies/local/new_faces.h"
 #include "geometry/bodies/primitives/construct.h"
+#include "geometry/bodies/topology/entity_names.h"
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/queries/quadrics/conic_image.h"
 #include "geometry/surfaces/analytic/cone.h"
@@ -23,7 +24,7 @@ namespace {
 std::vector<SurfacePtr> set_off(const Body& body, double h, const char* field) {
   std::vector<SurfacePtr> surfaces;
   for (const Face& face : body.faces) {
-    const double side = face.forward == (face.surface->normal_sign() > 0) ? 1 : -1;
+    const double side = outward_side(face);
     surfaces.push_back(offset_support(face.surface, side * h, field));
   }
   return surfaces;
@@ -230,7 +231,7 @@ class Rounding {
         images.push_back(sides_[c].image);
       }
     }
-    const bool outward = old.forward == (old.surface->normal_sign() > 0);
+    const bool outward = outward_side(old) > 0;
     const int face = new_.plane(f) ? add_plane_face(body_, *new_.plane(f), outward, old.origin, images)
                                    : body_.add_face(new_.support(f), old.forward, old.origin, old.trimmed);
     for (const auto& loop : loops) body_.add_loop(face, loop);

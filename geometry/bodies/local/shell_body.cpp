@@ -11,7 +11,9 @@
 #include "geometry/bodies/local/face_replacement.h"
 #include "geometry/bodies/local/offset_of_body.h"
 #include "geometry/bodies/local/plane_seams.h"
+#include "geometry/bodies/local/support.h"
 #include "geometry/bodies/topology/characteristics.h"
+#include "geometry/bodies/topology/entity_names.h"
 #include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/queries/closest/closest_point.h"
 
@@ -214,29 +216,14 @@ class Walls {
     return glm::length(p - q) <= 1e-7 * (1 + glm::length(p));
   }
 
-  static double area_of(const std::vector<Body::Use>& uses) {
-    double sum = 0;
-    std::vector<Vec2> points;
-    for (const Body::Use& u : uses) {
-      const Interval t = u.image->domain();
-      for (int k = 0; k < 64; ++k)
-        points.push_back(Vec2(u.image->point(t.lo + t.width() * (u.forward ? k : 64 - k) / 64)));
-    }
-    for (size_t k = 1; k + 1 < points.size(); ++k) {
-      const Vec2 a = points[k] - points[0], b = points[k + 1] - points[0];
-      sum += a.x * b.y - a.y * b.x;
-    }
-    return sum;
-  }
-
   // Each loop that has the rim inside is a face; the hole of an opening belongs to the one around it.
   void add_rim_faces(const Face& of, const std::optional<Frame>& plane, std::vector<std::vector<Body::Use>> loops) {
-    const bool forward = plane ? of.forward == (of.surface->normal_sign() > 0) : of.forward;
+    const bool forward = plane ? outward_side(of) > 0 : of.forward;
     const double side = forward == (plane || of.surface->normal_sign() > 0) ? 1 : -1;
     std::vector<std::vector<std::vector<Body::Use>>> faces;
     std::vector<std::vector<Body::Use>> holes;
     for (auto& loop : loops) {
-      if (side * area_of(loop) > 0)
+      if (side * area_of_loop(loop) > 0)
         faces.push_back({std::move(loop)});
       else
         holes.push_back(std::move(loop));

@@ -199,6 +199,21 @@ SurfacePtr unwrapped(const SurfacePtr& surface) {
   return moved && scale_of(moved->map()) ? moved_support(moved->original(), moved->map()) : surface;
 }
 
+double area_of_loop(const std::vector<Body::Use>& uses) {
+  std::vector<Vec2> points;
+  for (const Body::Use& u : uses) {
+    const Interval t = u.image->domain();
+    for (int k = 0; k < 64; ++k)
+      points.push_back(Vec2(u.image->point(t.lo + t.width() * (u.forward ? k : 64 - k) / 64)));
+  }
+  double sum = 0;
+  for (size_t k = 1; k + 1 < points.size(); ++k) {
+    const Vec2 a = points[k] - points[0], b = points[k + 1] - points[0];
+    sum += a.x * b.y - a.y * b.x;
+  }
+  return sum;
+}
+
 Vec2 middle_of_face(const Body& body, int face) {
   Box3 box;
   for (const int c : body.loops[body.faces[face].loops.front()].coedges) {

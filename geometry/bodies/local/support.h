@@ -25,6 +25,8 @@ SurfacePtr moved_support(const SurfacePtr& surface, const Affine& map);
 // A surface that has been moved, mirrored or scaled evenly, as one of its own kind likewise; others as they are.
 SurfacePtr unwrapped(const SurfacePtr& surface);
 
+// Twice the area that a loop of images encloses in the parameter plane, by chords; negative where it runs clockwise.
+double area_of_loop(const std::vector<Body::Use>& uses);
 // Half the way between the ends of a face's loops in its parameter plane.
 Vec2 middle_of_face(const Body& body, int face);
 

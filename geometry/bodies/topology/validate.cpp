@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "geometry/bodies/topology/characteristics.h"
+#include "geometry/bodies/topology/entity_names.h"
 #include "geometry/body.h"
 #include "geometry/queries/measures/mass_properties.h"
 #include "geometry/tessellation/triangulation.h"
@@ -222,7 +223,7 @@ class Validation {
   void check_face(int index) {
     const Face& face = body_.faces[index];
     // Interaction against the surface's parametric normal r_u x r_v.
-    const double side = face.forward == (face.surface->normal_sign() > 0) ? 1 : -1;
+    const double side = outward_side(face);
     const std::vector<Vec2> outer = polygon(face.loops[0]);
     if (!(side * signed_area(outer) > 0)) report("an outer loop has its face on the left", face_name(index));
     std::vector<std::vector<Vec2>> holes;
