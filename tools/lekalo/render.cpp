@@ -225,7 +225,8 @@ uint64_t identity_of(const Options& options, const render::LoadedScene& scene) {
     hash = render::hash_combine(hash, static_cast<uint64_t>(value));
   for (const std::string& layer : render::film_layers())
     hash = render::hash_combine(hash, render::keeps_layer(film, layer) ? 1 : 0);
-  for (const char letter : options.representation) hash = render::hash_combine(hash, static_cast<unsigned char>(letter));
+  for (const char letter : options.representation)
+    hash = render::hash_combine(hash, static_cast<unsigned char>(letter));
   return hash;
 }
 
