@@ -35,6 +35,18 @@ class Constraints(ProgramTest):
         self.scene(["{type: equation, is: 'a^2 = -1'}"], "  variables: [{name: a, start: 0}]\n")
         self.assertIn("the conditions contradict each other", self.run_program("solve", "scene.yaml", code=SCENE_ERROR)[1])
 
+    def test_a_scene_has_one_system_of_constraints(self):
+        part = "lekalo: 1\nconstraints: {points: [{name: NAME, at: [3, 3]}], conditions: [{type: fixed, of: NAME}]}\n"
+        self.write("a.yaml", part.replace("NAME", "p")), self.write("b.yaml", part.replace("NAME", "q"))
+        self.write("once.yaml", "lekalo: 1\ninclude: a.yaml\n")
+        self.assertEqual(self.json_of("solve", "once.yaml")["points"], {"p": [3, 3, 0]})
+        self.write("both.yaml", "lekalo: 1\ninclude: [a.yaml, b.yaml]\n")
+        self.assertIn("a second section 'constraints'", self.run_program("solve", "both.yaml", code=SCENE_ERROR)[1])
+        self.write("over.yaml", part.replace("NAME", "r") + "include: a.yaml\n")
+        self.assertIn("a second section 'constraints'", self.run_program("solve", "over.yaml", code=SCENE_ERROR)[1])
+        self.write("as.yaml", "lekalo: 1\ninclude: {file: a.yaml, as: left}\n")
+        self.assertIn("included as 'left' has 'constraints'", self.run_program("solve", "as.yaml", code=SCENE_ERROR)[1])
+
 
 if __name__ == "__main__":
     unittest.main()

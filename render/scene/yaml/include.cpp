@@ -117,6 +117,7 @@ class SceneReader {
   std::vector<Inclusion> inclusions(const Value& include);
   std::optional<Inclusion> inclusion(const Value& entry);
   std::optional<Value> include(const Inclusion& inclusion, const std::shared_ptr<const SourceFile>& from);
+  void refuse_constraints(const Value& value, const Inclusion& inclusion, bool is_second);
   std::shared_ptr<const SourceFile> open(const fs::path& path, const Inclusion& inclusion, std::string scope);
   void apply_set(Value& root, const Inclusion& inclusion);
 
@@ -248,10 +249,24 @@ Value SceneReader::with_includes(Value root, const std::shared_ptr<const SourceF
   included.kind = Value::Kind::map;
   for (const Inclusion& one : all) {
     std::optional<Value> value = include(one, file);
+    if (value) refuse_constraints(*value, one, included.find("constraints") || root.find("constraints"));
     if (value) merge_sibling(included, std::move(*value), root, diagnostics_);
   }
   open_paths_.pop_back();
   return merge_over(std::move(included), std::move(root), diagnostics_);
+}
+
+// A scene has one system of constraints, whose names get no prefix.
+void SceneReader::refuse_constraints(const Value& value, const Inclusion& inclusion, bool is_second) {
+  const Entry* const entry = value.find_entry("constraints");
+  if (!entry) return;
+  if (!inclusion.prefix.empty())
+    diagnostics_.error(entry->key.place,
+                       fmt::format("a file that is included as '{}' has 'constraints'", inclusion.prefix),
+                       "their names get no prefix: include it without 'as'");
+  else if (is_second)
+    diagnostics_.error(entry->key.place, "a second section 'constraints'",
+                       "a scene has one system of constraints: write all of it in one file");
 }
 
 std::shared_ptr<const SourceFile> SceneReader::open(const fs::path& path, const Inclusion& inclusion,
