@@ -18,9 +18,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kMostSteps = 60, kMostHalvings = 30;
-constexpr double kMet = 1e-11;   // of a residual, relative to the size
-constexpr double kStep = 1e-13;  // of the last step, relative to the size
-constexpr double kLongest = 2;   // of a step of least norm, relative to the size and the unknowns
+constexpr double kMet = 1e-11;       // of a residual, relative to the size
+constexpr double kRounding = 4e-15;  // of a residual, relative to the unknowns times its slopes
+constexpr double kStep = 1e-13;      // of the last step, relative to the size
+constexpr double kLongest = 2;       // of a step of least norm, relative to the size and the unknowns
 constexpr double kAside =
     0.01;  // of the size: a step from where the conditions have no slope; at most that, as angles are unknowns too
 constexpr double kRank = 1e-9;        // of singular values
@@ -79,7 +80,13 @@ class Solving {
   }
 
  private:
-  bool is_met(const VectorXd& f) const { return f.size() == 0 || f.lpNorm<Eigen::Infinity>() <= kMet * system_.size; }
+  // What is left of each number that counts as 0: a share of the size, and what rounding of large unknowns leaves.
+  VectorXd tolerances(const VectorXd& p, const MatrixXd& jacobian) const {
+    return (kRounding * (jacobian.cwiseAbs() * p.cwiseAbs())).array() + kMet * system_.size;
+  }
+  bool is_met(const VectorXd& p, const Values& at) const {
+    return at.f.allFinite() && (at.f.cwiseAbs().array() <= tolerances(p, at.jacobian).array()).all();
+  }
 
   std::vector<std::string> names_of(const std::vector<int>& which) const {
     std::vector<std::string> names;
@@ -98,21 +105,21 @@ class Solving {
       };
       auto [feasible, at] = least_norm(start_);
       // Where all ways look alike, as from a circle's centre, a step aside, the same each time.
-      if (!is_met(at.f) && !best) {
+      if (!is_met(feasible, at) && !best) {
         auto [other, there] = least_norm(aside(feasible));
-        if (is_met(there.f)) feasible = std::move(other), at = std::move(there);
+        if (is_met(other, there)) feasible = std::move(other), at = std::move(there);
       }
-      if (is_met(at.f))
+      if (is_met(feasible, at))
         keep(lagrange(feasible));
       else if (!best)
-        refuse(at);
+        refuse(feasible, at);
       // A solution, if not the nearest.
       if (!best) best = Stationary{feasible, VectorXd::Zero(at.f.size())};
       if (const auto way = way_down(*best)) {
         const VectorXd top = best->p;
         for (const double length : {0.1, -0.1, 0.3, -0.3, 1.0, -1.0, 3.0, -3.0}) {
           const auto [foot, there] = least_norm(top + length * system_.size * *way);
-          if (is_met(there.f)) keep(lagrange(foot));
+          if (is_met(foot, there)) keep(lagrange(foot));
         }
       }
     }
@@ -207,11 +214,11 @@ class Solving {
       p += by.head(n_), multipliers += by.tail(m);
       at = values(p, active_);
       if (!at.f.allFinite() || by.head(n_).norm() > 1e3 * (system_.size + start_.norm())) return std::nullopt;
-      if (is_met(at.f) && by.head(n_).lpNorm<Eigen::Infinity>() <= kStep * (system_.size + p.norm()))
+      if (is_met(p, at) && by.head(n_).lpNorm<Eigen::Infinity>() <= kStep * (system_.size + p.norm()))
         return Stationary{p, multipliers};
     }
     // Where second derivatives by differences leave the last digits to a slow end.
-    if (!is_met(at.f)) return std::nullopt;
+    if (!is_met(p, at)) return std::nullopt;
     return Stationary{p, multipliers};
   }
 
@@ -219,7 +226,7 @@ class Solving {
   std::pair<VectorXd, Values> least_norm(VectorXd p) const {
     Values at = values(p, active_);
     const VectorXd inverse = weights_.cwiseInverse();
-    for (int step = 0; step < kMostSteps && !is_met(at.f); ++step) {
+    for (int step = 0; step < kMostSteps && !is_met(p, at); ++step) {
       const MatrixXd scaled = at.jacobian * inverse.cwiseSqrt().asDiagonal();
       Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(scaled);
       solver.setThreshold(kRank);
@@ -237,13 +244,15 @@ class Solving {
     return {p, at};
   }
 
-  [[noreturn]] void refuse(const Values& at) const {
+  [[noreturn]] void refuse(const VectorXd& p, const Values& at) const {
+    const VectorXd tolerance = tolerances(p, at.jacobian);
     std::vector<std::pair<double, std::string>> unmet;
     int row = 0;
     for (const int i : active_) {
       const Constraint& one = system_.constraints[i];
       const double worst = at.f.segment(row, one.count).lpNorm<Eigen::Infinity>();
-      if (worst > kMet * system_.size) unmet.emplace_back(worst, one.name);
+      if ((at.f.segment(row, one.count).cwiseAbs().array() > tolerance.segment(row, one.count).array()).any())
+        unmet.emplace_back(worst, one.name);
       row += one.count;
     }
     std::stable_sort(unmet.begin(), unmet.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -266,7 +275,7 @@ class Solving {
           std::find(active_.begin(), active_.end(), static_cast<int>(i)) != active_.end())
         continue;
       const Values at = values(p, {static_cast<int>(i)});
-      if (!(at.f[0] < -kMet * system_.size)) continue;
+      if (!(at.f[0] < -tolerances(p, at.jacobian)[0])) continue;
       // As far as the unknowns must go, not as large as the formula is written.
       const double slope = at.jacobian.norm(), f = slope > 0 ? at.f[0] / slope : at.f[0];
       if (f < least) least = f, worst = static_cast<int>(i);

@@ -35,6 +35,17 @@ class Constraints(ProgramTest):
         self.scene(["{type: equation, is: 'a^2 = -1'}"], "  variables: [{name: a, start: 0}]\n")
         self.assertIn("the conditions contradict each other", self.run_program("solve", "scene.yaml", code=SCENE_ERROR)[1])
 
+    def test_rounding_of_large_numbers_counts_as_met(self):
+        self.assert_near(self.solved(["a*a = 2000000"], a=1000)["variables"]["a"], 2e6**0.5, 1e-9)
+        points = ("  points: [{name: p, at: [500000, 4000000]}, {name: q, at: [500001, 4000000.2]}, "
+                  "{name: r, at: [500001, 4000001]}]\n")
+        found = self.json_of("solve", self.scene(
+            ["{type: fixed, of: p}", "{type: distance, between: [p, q], value: 2}", "{type: angle, of: [q, p, r], angle: 30}",
+             "{type: equal_length, of: [p, q, p, r]}"], points))["points"]
+        sides = [[b - a for a, b in zip(found["p"], found[name])] for name in "qr"]
+        self.assert_near([sum(x * x for x in side) for side in sides], [4, 4], 1e-8)
+        self.assert_near(sum(a * b for a, b in zip(*sides)), 2 * 3**0.5, 1e-8)
+
     def test_a_scene_has_one_system_of_constraints(self):
         part = "lekalo: 1\nconstraints: {points: [{name: NAME, at: [3, 3]}], conditions: [{type: fixed, of: NAME}]}\n"
         self.write("a.yaml", part.replace("NAME", "p")), self.write("b.yaml", part.replace("NAME", "q"))
