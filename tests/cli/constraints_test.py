@@ -46,6 +46,18 @@ class Constraints(ProgramTest):
         self.assert_near([sum(x * x for x in side) for side in sides], [4, 4], 1e-8)
         self.assert_near(sum(a * b for a, b in zip(*sides)), 2 * 3**0.5, 1e-8)
 
+    def test_names_are_names_and_mean_one_thing(self):
+        for unknowns, message in (
+                ("points: [{name: p, at: [0, 0]}]\n  variables: [{name: p_x, start: 1}]", "'p_x' is a coordinate of 'p'"),
+                ("points: [{name: p, at: [0, 0]}]\n  variables: [{name: rr, start: 1}]", "there is a parameter 'rr'"),
+                ("points: [{name: q, at: [0, 0]}]", "'q_y' is a coordinate of 'q'"),
+                ("points: [{name: 'a b', at: [0, 0]}]", "cannot be part of a name"),
+                ("points: [{name: '', at: [0, 0]}]", "a name is empty"),
+                ("bodies: [{name: q.1}]", "cannot be part of a name")):
+            scene = self.scene(["{type: equation, is: 'rr = 3'}"], f"  {unknowns}\n")
+            self.write(scene, (self.folder / scene).read_text() + "parameters: {rr: 3, q_y: 1}\n")
+            self.assertIn(message, self.run_program("solve", scene, code=SCENE_ERROR)[1])
+
     def test_a_scene_has_one_system_of_constraints(self):
         part = "lekalo: 1\nconstraints: {points: [{name: NAME, at: [3, 3]}], conditions: [{type: fixed, of: NAME}]}\n"
         self.write("a.yaml", part.replace("NAME", "p")), self.write("b.yaml", part.replace("NAME", "q"))

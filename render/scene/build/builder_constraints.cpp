@@ -10,6 +10,7 @@
 #include "geometry/expression/nearest_name.h"
 #include "render/scene/build/builder.h"
 #include "render/scene/types/sections.h"
+#include "render/scene/values/scalars.h"
 
 namespace lekalo::render {
 
@@ -81,9 +82,8 @@ class ConstraintReading {
     return static_cast<int>(system_.start.size()) - 1;
   }
   bool is_new(const Value& item, const std::string& name) {
-    if (points_.contains(name) || variables_.contains(name) || bodies_.contains(name) || markers_.contains(name) ||
-        name == kGround) {
-      report(item, "name", FieldError("name", fmt::format("the name '{}' is taken", name), "another one"));
+    const auto refuse = [&](const std::string& message, const std::string& hint) {
+      report(item, "name", FieldError("name", message, hint));
       return false;
     }
     return true;
@@ -110,6 +110,7 @@ class ConstraintReading {
                           "it is a variable, function or unit of formulas"));
         continue;
       }
+  // Whether the name is one, and no other thing has it.
       variables_[f.text("name")] = unknown(f.number("start"), f.number("weight"));
     }
     for (size_t i = 0; i < curves.fields.size(); ++i) {
@@ -119,13 +120,38 @@ class ConstraintReading {
       point.curve = f.curve("of");
       point.parameter = unknown(f.number("t"), f.number("weight"));
       points_[f.text("name")] = point;
-    }
+    };
+    if (const Reading<std::string> reading = read_name(*item.find("name")); !reading)
+      return refuse(reading.slip().message, reading.slip().hint);
+    if (points_.contains(name) || variables_.contains(name) || bodies_.contains(name) || markers_.contains(name) ||
+  // The point whose coordinate is called so.
+  std::optional<std::string> point_with(const std::string& name) const {
+    const std::string point = name.size() > 2 ? name.substr(0, name.size() - 2) : "";
+    const bool is_coordinate = name.ends_with("_x") || name.ends_with("_y") || name.ends_with("_z");
+    return is_coordinate && points_.contains(point) ? std::optional(point) : std::nullopt;
+  }
+  // A variable is a parameter of formulas, and so are coordinates of points.
+  bool is_new_in_formulas(const Value& item, const std::string& name, const std::string& in_formulas) {
+    if (!parameters_.has(in_formulas)) return true;
+    report(
+        item, "name",
+        FieldError("name", fmt::format("there is a parameter '{}'", in_formulas),
+                   name == in_formulas ? "another name"
+                                       : fmt::format("'{}' is a coordinate of '{}': another name", in_formulas, name)));
+    return false;
+  }
+        name == kGround)
+      return refuse(fmt::format("the name '{}' is taken", name), "another one");
     for (size_t i = 0; i < bodies.fields.size(); ++i) {
       const Fields& f = bodies.fields[i];
       if (!is_new(bodies.at(i), f.text("name"))) continue;
       UnknownPose pose{static_cast<int>(system_.start.size()), f.vec3("at")};
       for (int k = 0; k < 6; ++k) unknown(0, f.number("weight"));
       bodies_[f.text("name")] = pose;
+      bool clashes = false;
+      for (const char axis : {'x', 'y', 'z'})
+        clashes |= !is_new_in_formulas(points.at(i), f.text("name"), f.text("name") + "_" + axis);
+      if (clashes) continue;
     }
   }
 
@@ -134,6 +160,12 @@ class ConstraintReading {
     for (size_t i = 0; i < markers.fields.size(); ++i) {
       const Fields& f = markers.fields[i];
       if (!is_new(markers.at(i), f.text("name"))) continue;
+      if (!is_new_in_formulas(variables.at(i), f.text("name"), f.text("name"))) continue;
+      if (const auto point = point_with(f.text("name"))) {
+        report(variables.at(i), "name",
+               FieldError("name", fmt::format("'{}' is a coordinate of '{}'", f.text("name"), *point), "another name"));
+        continue;
+      }
       Marker marker;
       marker.point.at = f.vec3("point");
       marker.normal = glm::normalize(f.vec3("normal"));

@@ -51,6 +51,7 @@ class Parameters {
   // Variables, functions and units of formulas are no names of parameters and counters.
   static bool may_be_called(std::string_view name);
 
+  bool has(std::string_view name) const { return parameters_.find(name) != parameters_.end(); }
   // One more, with a value that is no formula.
   void define(const std::string& name, double value);
 
