@@ -58,6 +58,14 @@ class Constraints(ProgramTest):
             self.write(scene, (self.folder / scene).read_text() + "parameters: {rr: 3, q_y: 1}\n")
             self.assertIn(message, self.run_program("solve", scene, code=SCENE_ERROR)[1])
 
+    def test_a_field_of_another_condition_is_refused(self):
+        points = "  points: [{name: p, at: [0, 0]}, {name: q, at: [1, 0.3]}]\n"
+        for condition, message in (("type: horizontal, between: [p, q], value: 2", "'horizontal' takes no 'value'"),
+                                   ("type: distance, between: [p, q], value: 2, along: y", "'distance' takes no 'along'"),
+                                   ("type: fixed, of: p, value: 7", "'p' is no variable")):
+            scene = self.scene([f"{{{condition}}}"], points)
+            self.assertIn(message, self.run_program("solve", scene, code=SCENE_ERROR)[1])
+
     def test_a_scene_has_one_system_of_constraints(self):
         part = "lekalo: 1\nconstraints: {points: [{name: NAME, at: [3, 3]}], conditions: [{type: fixed, of: NAME}]}\n"
         self.write("a.yaml", part.replace("NAME", "p")), self.write("b.yaml", part.replace("NAME", "q"))

@@ -27,6 +27,36 @@ struct Items {
   const Value& at(size_t i) const { return value->is_sequence() ? value->items[i] : *value; }
 };
 
+// What each type of condition is told by.
+const std::map<std::string, std::vector<std::string>>& fields_of_types() {
+  static const std::map<std::string, std::vector<std::string>> fields = {
+      {"fixed", {"of", "value"}},
+      {"angle", {"of", "angle"}},
+      {"parallel", {"of"}},
+      {"perpendicular", {"of"}},
+      {"equal_length", {"of"}},
+      {"distance", {"between", "value"}},
+      {"point_distance", {"between", "value"}},
+      {"coordinate_distance", {"between", "value", "along"}},
+      {"point_plane", {"between", "value"}},
+      {"planar", {"between", "value"}},
+      {"plane_angle", {"between", "angle"}},
+      {"equation", {"is"}}};
+  return fields;
+}
+
+// A field that says nothing to this type.
+void refuse_other_fields(const Fields& f) {
+  const std::string type = f.text("type");
+  const auto found = fields_of_types().find(type);
+  const std::vector<std::string> own =
+      found == fields_of_types().end() ? std::vector<std::string>{"between"} : found->second;
+  for (const char* field : {"of", "between", "value", "angle", "along", "is"})
+    if (f.has(field) && std::find(own.begin(), own.end(), field) == own.end())
+      throw FieldError(field, fmt::format("'{}' takes no '{}'", type, field),
+                       fmt::format("it takes {}", fmt::join(own, ", ")));
+}
+
 Vec3 across_of(const Vec3& normal) { return frame_about(Vec3(0), normal).x; }
 
 }  // namespace
@@ -232,9 +262,13 @@ class ConstraintReading {
     const std::string name = f.has("name") ? f.text("name") : fmt::format("conditions.{} ({})", number, type);
     const auto put = [&](Constraint one) { system_.constraints.push_back(std::move(one)); };
     const Start start = system_.start;
+    refuse_other_fields(f);
     if (type == "equation") return add_equation(f, item, name);
     if (type == "fixed") {
       const std::string of = names_of(f, "of", 1).front();
+      if (f.has("value") && !variables_.contains(of))
+        throw FieldError("value", fmt::format("'{}' is no variable and has no value", of),
+                         "points and bodies are fixed where they begin");
       if (const auto body = bodies_.find(of); body != bodies_.end()) return put(fixation(name, body->second));
       if (const auto variable = variables_.find(of); variable != variables_.end())
         return put(value_constraint(name, variable->second,
