@@ -157,7 +157,8 @@ Constraint angle_between(std::string name, const UnknownPoint& a, const UnknownP
 }
 
 Constraint parallel(std::string name, const Segment2& a, const Segment2& b, Start start) {
-  const bool plane = a[0].is_plane() && a[1].is_plane() && b[0].is_plane() && b[1].is_plane();
+  const auto is_level = [](const Segment2& s) { return s[0].is_plane() && s[1].is_plane() && s[0].at.z == s[1].at.z; };
+  const bool plane = is_level(a) && is_level(b);
   const Vec3 way = glm::abs(place_of(b[1], start) - place_of(b[0], start));
   // Of three components of the product the one along the segment says nothing new.
   const int left_out = plane ? -1 : way.x >= way.y && way.x >= way.z ? 0 : way.y >= way.z ? 1 : 2;

@@ -53,7 +53,7 @@ Constraint coordinate_distance(std::string name, const UnknownPoint& a, const Un
 Constraint angle_between(std::string name, const UnknownPoint& a, const UnknownPoint& b, const UnknownPoint& c,
                          double angle);
 using Segment2 = std::array<UnknownPoint, 2>;
-Constraint parallel(std::string name, const Segment2& a, const Segment2& b, Start start);  // 2, in a plane 1
+Constraint parallel(std::string name, const Segment2& a, const Segment2& b, Start start);  // 2, of level segments 1
 Constraint perpendicular(std::string name, const Segment2& a, const Segment2& b, Start start);
 Constraint equal_lengths(std::string name, const Segment2& a, const Segment2& b);
 

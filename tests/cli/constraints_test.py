@@ -46,6 +46,15 @@ class Constraints(ProgramTest):
         self.assert_near([sum(x * x for x in side) for side in sides], [4, 4], 1e-8)
         self.assert_near(sum(a * b for a, b in zip(*sides)), 2 * 3**0.5, 1e-8)
 
+    def test_parallel_segments_are_so_in_space(self):
+        points = "  points: [{name: a, at: [0, 0, 0]}, {name: b, at: [1, 0, 1]}, {name: c, at: [0, 1, 0]}, {name: d, at: [1, 1.2, 2]}]\n"
+        found = self.json_of("solve", self.scene(["{type: parallel, of: [a, b, c, d]}"], points))["points"]
+        first, second = ([b - a for a, b in zip(found[p], found[q])] for p, q in ("ab", "cd"))
+        self.assert_near([2 * x for x in first], second, 1e-9)
+        points = points.replace("[1, 0, 1]", "[1, 0, 0]")
+        said = self.run_program("solve", self.scene(["{type: parallel, of: [a, b, c, d]}"], points), code=SCENE_ERROR)[1]
+        self.assertIn("the conditions contradict each other", said)
+
     def test_names_are_names_and_mean_one_thing(self):
         for unknowns, message in (
                 ("points: [{name: p, at: [0, 0]}]\n  variables: [{name: p_x, start: 1}]", "'p_x' is a coordinate of 'p'"),
