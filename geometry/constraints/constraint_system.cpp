@@ -312,6 +312,7 @@ class Solving {
     result.multipliers.assign(multipliers_.data(), multipliers_.data() + multipliers_.size());
     return result;
   }
+    result.active = active_;
 
  public:
   static int rank_of(const MatrixXd& jacobian) {
@@ -342,16 +343,9 @@ int jacobian_rank(const ConstraintSystem& system, std::span<const double> unknow
   return Solving::rank_of(Solving(system).values(p, equations).jacobian);
 }
 
-Eigen::MatrixXd allowed_velocities(const ConstraintSystem& system, std::span<const double> unknowns) {
-  std::vector<int> equations;
-  for (size_t i = 0; i < system.constraints.size(); ++i)
-    if (!system.constraints[i].is_inequality) equations.push_back(static_cast<int>(i));
-  const auto n = static_cast<int>(unknowns.size());
-  const VectorXd p = Eigen::Map<const VectorXd>(unknowns.data(), n);
-  const MatrixXd jacobian = Solving(system).values(p, equations).jacobian;
-  if (jacobian.rows() == 0) return MatrixXd::Identity(n, n);
-  const Eigen::JacobiSVD<MatrixXd> svd(jacobian, Eigen::ComputeFullV);
-  return svd.matrixV().rightCols(n - Solving::rank_of(jacobian));
+Eigen::MatrixXd allowed_velocities(const ConstraintSystem& system, const ConstraintSolution& solution) {
+  const VectorXd p = Eigen::Map<const VectorXd>(solution.unknowns.data(), static_cast<int>(solution.unknowns.size()));
+  return null_space(Solving(system).values(p, solution.active).jacobian);
 }
 
 }  // namespace lekalo::geometry

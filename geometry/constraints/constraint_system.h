@@ -39,7 +39,8 @@ ConstraintSolution solve(const ConstraintSystem& system);
 // The rank of the Jacobian at given unknowns, by singular values above 1e-9 of the largest.
 int jacobian_rank(const ConstraintSystem& system, std::span<const double> unknowns);
 
-// Velocities of the unknowns that keep all equations there, one a column, orthonormal: the null space of the Jacobian.
-Eigen::MatrixXd allowed_velocities(const ConstraintSystem& system, std::span<const double> unknowns);
+// Velocities of the unknowns that keep all equations of the solution, one a column, orthonormal: the null space of the
+// Jacobian. Inequalities that are met just so are equations.
+Eigen::MatrixXd allowed_velocities(const ConstraintSystem& system, const ConstraintSolution& solution);
 
 }  // namespace lekalo::geometry

@@ -55,6 +55,11 @@ class Constraints(ProgramTest):
         said = self.run_program("solve", self.scene(["{type: parallel, of: [a, b, c, d]}"], points), code=SCENE_ERROR)[1]
         self.assertIn("the conditions contradict each other", said)
 
+    def test_what_an_inequality_holds_is_not_free(self):
+        found = self.solved(["a >= 2", "b = 1"], a=0, b=0)
+        self.assertEqual((found["freedom"], found["free"]), (0, []))
+        self.assertEqual(self.solved(["a >= 2", "b = 1"], a=3, b=0)["free"], ["a"])
+
     def test_names_are_names_and_mean_one_thing(self):
         for unknowns, message in (
                 ("points: [{name: p, at: [0, 0]}]\n  variables: [{name: p_x, start: 1}]", "'p_x' is a coordinate of 'p'"),

@@ -396,7 +396,7 @@ class ConstraintReading {
   void find_free(const ConstraintSolution& solution, ConstraintReport& result) const {
     const int n = result.unknowns;
     if (n == 0) return;
-    const Eigen::MatrixXd null_space = allowed_velocities(system_, solution.unknowns);
+    const Eigen::MatrixXd null_space = allowed_velocities(system_, solution);
     const auto moves = [&](int unknown) { return null_space.row(unknown).norm() > 1e-7; };
     for (const auto& [name, point] : points_) {
       const bool free = point.curve ? moves(point.parameter)

@@ -99,7 +99,7 @@ TEST(ConstraintSystem, RandomSketchesAreFoundAgain) {
       EXPECT_NEAR(glm::length(place_of(points[i], found.unknowns) - place_of(points[j], found.unknowns)),
                   glm::length(truth[i] - truth[j]), 1e-10);
     // Least change: the change is normal to all motions that are left.
-    const Eigen::MatrixXd free = allowed_velocities(system, found.unknowns);
+    const Eigen::MatrixXd free = allowed_velocities(system, found);
     Eigen::VectorXd change(static_cast<Eigen::Index>(found.unknowns.size()));
     for (size_t k = 0; k < found.unknowns.size(); ++k)
       change[static_cast<Eigen::Index>(k)] = found.unknowns[k] - system.start[k];
