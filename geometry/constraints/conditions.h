@@ -66,8 +66,9 @@ Constraint parallel_planes(std::string name, const Marker& a, const Marker& b); 
 // The first one's direction in the plane of the second one's normal and direction: no turn about the normal.
 Constraint aligned(std::string name, const Marker& a, const Marker& b);
 
-// left - right = 0, or >= 0, of formulas whose variables are these unknowns, in the order of bind().
+// left - right = 0, or >= 0, of formulas whose variables are these unknowns, in the order of bind(); `used` are those
+// that occur.
 Constraint formula_constraint(std::string name, const Expression& difference, std::vector<int> variables,
-                              bool is_inequality);
+                              std::vector<int> used, bool is_inequality);
 
 }  // namespace lekalo::geometry

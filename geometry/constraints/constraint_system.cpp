@@ -179,13 +179,22 @@ class Solving {
 
   // Sum of the multipliers times second derivatives, by differences of the gradients.
   MatrixXd curvature(const VectorXd& p, const VectorXd& multipliers) const {
-    MatrixXd result(n_, n_);
-    for (int i = 0; i < n_; ++i) {
-      const double h = kDifference * std::max(system_.size, std::abs(p[i]));
-      VectorXd after = p, before = p;
-      after[i] += h, before[i] -= h;
-      result.col(i) =
-          (values(after, active_).jacobian - values(before, active_).jacobian).transpose() * multipliers / (2 * h);
+    MatrixXd result = MatrixXd::Zero(n_, n_);
+    VectorXd moved = p;
+    int row = 0;
+    for (const int number : active_) {
+      const Constraint& one = system_.constraints[number];
+      for (const int i : one.unknowns) {
+        const double h = std::max(kDifference * system_.size, 1e-4 * kDifference * std::abs(p[i]));
+        moved[i] = p[i] + h;
+        const MatrixXd after = values(moved, {number}).jacobian;
+        moved[i] = p[i] - h;
+        const MatrixXd before = values(moved, {number}).jacobian;
+        moved[i] = p[i];
+        for (const int j : one.unknowns)
+          result(j, i) += (after.col(j) - before.col(j)).dot(multipliers.segment(row, one.count)) / (2 * h);
+      }
+      row += one.count;
     }
     return 0.5 * (result + result.transpose());
   }
@@ -303,6 +312,7 @@ class Solving {
     const Values at = values(p, active_);
     ConstraintSolution result;
     result.unknowns.assign(p.data(), p.data() + n_);
+    result.active = active_;
     result.change = change(p);
     result.equations = static_cast<int>(at.f.size());
     result.rank = rank_of(at.jacobian);
@@ -312,7 +322,6 @@ class Solving {
     result.multipliers.assign(multipliers_.data(), multipliers_.data() + multipliers_.size());
     return result;
   }
-    result.active = active_;
 
  public:
   static int rank_of(const MatrixXd& jacobian) {

@@ -17,6 +17,7 @@ struct Constraint {
   std::string name;  // for messages
   int count = 1;
   bool is_inequality = false;  // f >= 0, one number
+  std::vector<int> unknowns;   // numbers of those that it depends on
   // Fills f, and the rows of the Jacobian over all unknowns, which are 0 before.
   std::function<void(std::span<const double> unknowns, Eigen::Ref<Eigen::VectorXd> f,
                      Eigen::Ref<Eigen::MatrixXd> jacobian)>

@@ -1,5 +1,6 @@
 """The section `constraints`: what is found, what is refused and what is said of it."""
 
+import resource
 import unittest
 
 from program import SCENE_ERROR, ProgramTest
@@ -59,6 +60,15 @@ class Constraints(ProgramTest):
         found = self.solved(["a >= 2", "b = 1"], a=0, b=0)
         self.assertEqual((found["freedom"], found["free"]), (0, []))
         self.assertEqual(self.solved(["a >= 2", "b = 1"], a=3, b=0)["free"], ["a"])
+
+    def test_a_long_chain_is_solved_soon(self):
+        names = [f"p{k}" for k in range(60)]
+        points = ", ".join(f"{{name: {name}, at: [{k}, {0.1 * (k % 3)}]}}" for k, name in enumerate(names))
+        links = [f"{{type: distance, between: [{a}, {b}], value: 1.05}}" for a, b in zip(names, names[1:])]
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        found = self.json_of("solve", self.scene(["{type: fixed, of: p0}"] + links, f"  points: [{points}]\n"))
+        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, 1.5)  # it was 2.7
+        self.assertEqual(found["freedom"], 59)
 
     def test_names_are_names_and_mean_one_thing(self):
         for unknowns, message in (

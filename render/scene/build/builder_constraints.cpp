@@ -111,49 +111,19 @@ class ConstraintReading {
     system_.weights.push_back(weight);
     return static_cast<int>(system_.start.size()) - 1;
   }
+  // Whether the name is one, and no other thing has it.
   bool is_new(const Value& item, const std::string& name) {
     const auto refuse = [&](const std::string& message, const std::string& hint) {
       report(item, "name", FieldError("name", message, hint));
       return false;
-    }
-    return true;
-  }
-
-  void read_unknowns() {
-    const bool in_plane = fields_.get<bool>("in_plane");
-    const Items points = items("points"), variables = items("variables"), curves = items("on_curves"),
-                bodies = items("bodies");
-    for (size_t i = 0; i < points.fields.size(); ++i) {
-      const Fields& f = points.fields[i];
-      if (!is_new(points.at(i), f.text("name"))) continue;
-      UnknownPoint point;
-      point.at = f.vec3("at");
-      for (int k = 0; k < (in_plane ? 2 : 3); ++k) point.coordinates[k] = unknown(point.at[k], f.number("weight"));
-      points_[f.text("name")] = point;
-    }
-    for (size_t i = 0; i < variables.fields.size(); ++i) {
-      const Fields& f = variables.fields[i];
-      if (!is_new(variables.at(i), f.text("name"))) continue;
-      if (!Parameters::may_be_called(f.text("name"))) {
-        report(variables.at(i), "name",
-               FieldError("name", fmt::format("a variable may not be called '{}'", f.text("name")),
-                          "it is a variable, function or unit of formulas"));
-        continue;
-      }
-  // Whether the name is one, and no other thing has it.
-      variables_[f.text("name")] = unknown(f.number("start"), f.number("weight"));
-    }
-    for (size_t i = 0; i < curves.fields.size(); ++i) {
-      const Fields& f = curves.fields[i];
-      if (!is_new(curves.at(i), f.text("name"))) continue;
-      UnknownPoint point;
-      point.curve = f.curve("of");
-      point.parameter = unknown(f.number("t"), f.number("weight"));
-      points_[f.text("name")] = point;
     };
     if (const Reading<std::string> reading = read_name(*item.find("name")); !reading)
       return refuse(reading.slip().message, reading.slip().hint);
     if (points_.contains(name) || variables_.contains(name) || bodies_.contains(name) || markers_.contains(name) ||
+        name == kGround)
+      return refuse(fmt::format("the name '{}' is taken", name), "another one");
+    return true;
+  }
   // The point whose coordinate is called so.
   std::optional<std::string> point_with(const std::string& name) const {
     const std::string point = name.size() > 2 ? name.substr(0, name.size() - 2) : "";
@@ -170,18 +140,54 @@ class ConstraintReading {
                                        : fmt::format("'{}' is a coordinate of '{}': another name", in_formulas, name)));
     return false;
   }
-        name == kGround)
-      return refuse(fmt::format("the name '{}' is taken", name), "another one");
+
+  void read_unknowns() {
+    const bool in_plane = fields_.get<bool>("in_plane");
+    const Items points = items("points"), variables = items("variables"), curves = items("on_curves"),
+                bodies = items("bodies");
+    for (size_t i = 0; i < points.fields.size(); ++i) {
+      const Fields& f = points.fields[i];
+      if (!is_new(points.at(i), f.text("name"))) continue;
+      bool clashes = false;
+      for (const char axis : {'x', 'y', 'z'})
+        clashes |= !is_new_in_formulas(points.at(i), f.text("name"), f.text("name") + "_" + axis);
+      if (clashes) continue;
+      UnknownPoint point;
+      point.at = f.vec3("at");
+      for (int k = 0; k < (in_plane ? 2 : 3); ++k) point.coordinates[k] = unknown(point.at[k], f.number("weight"));
+      points_[f.text("name")] = point;
+    }
+    for (size_t i = 0; i < variables.fields.size(); ++i) {
+      const Fields& f = variables.fields[i];
+      if (!is_new(variables.at(i), f.text("name"))) continue;
+      if (!is_new_in_formulas(variables.at(i), f.text("name"), f.text("name"))) continue;
+      if (const auto point = point_with(f.text("name"))) {
+        report(variables.at(i), "name",
+               FieldError("name", fmt::format("'{}' is a coordinate of '{}'", f.text("name"), *point), "another name"));
+        continue;
+      }
+      if (!Parameters::may_be_called(f.text("name"))) {
+        report(variables.at(i), "name",
+               FieldError("name", fmt::format("a variable may not be called '{}'", f.text("name")),
+                          "it is a variable, function or unit of formulas"));
+        continue;
+      }
+      variables_[f.text("name")] = unknown(f.number("start"), f.number("weight"));
+    }
+    for (size_t i = 0; i < curves.fields.size(); ++i) {
+      const Fields& f = curves.fields[i];
+      if (!is_new(curves.at(i), f.text("name"))) continue;
+      UnknownPoint point;
+      point.curve = f.curve("of");
+      point.parameter = unknown(f.number("t"), f.number("weight"));
+      points_[f.text("name")] = point;
+    }
     for (size_t i = 0; i < bodies.fields.size(); ++i) {
       const Fields& f = bodies.fields[i];
       if (!is_new(bodies.at(i), f.text("name"))) continue;
       UnknownPose pose{static_cast<int>(system_.start.size()), f.vec3("at")};
       for (int k = 0; k < 6; ++k) unknown(0, f.number("weight"));
       bodies_[f.text("name")] = pose;
-      bool clashes = false;
-      for (const char axis : {'x', 'y', 'z'})
-        clashes |= !is_new_in_formulas(points.at(i), f.text("name"), f.text("name") + "_" + axis);
-      if (clashes) continue;
     }
   }
 
@@ -190,12 +196,6 @@ class ConstraintReading {
     for (size_t i = 0; i < markers.fields.size(); ++i) {
       const Fields& f = markers.fields[i];
       if (!is_new(markers.at(i), f.text("name"))) continue;
-      if (!is_new_in_formulas(variables.at(i), f.text("name"), f.text("name"))) continue;
-      if (const auto point = point_with(f.text("name"))) {
-        report(variables.at(i), "name",
-               FieldError("name", fmt::format("'{}' is a coordinate of '{}'", f.text("name"), *point), "another name"));
-        continue;
-      }
       Marker marker;
       marker.point.at = f.vec3("point");
       marker.normal = glm::normalize(f.vec3("normal"));
@@ -331,7 +331,10 @@ class ConstraintReading {
   }
 
   static Constraint value_constraint(const std::string& name, int variable, double value) {
-    return {name, 1, false,
+    return {name,
+            1,
+            false,
+            {variable},
             [variable, value](std::span<const double> unknowns, Eigen::Ref<Eigen::VectorXd> f,
                               Eigen::Ref<Eigen::MatrixXd> jacobian) {
               f[0] = unknowns[static_cast<size_t>(variable)] - value;
@@ -363,8 +366,12 @@ class ConstraintReading {
       failed_ = true;
       return;
     }
+    const std::vector<std::string> names = std::get<Expression>(Expression::parse(difference)).names();
+    std::vector<int> used;
+    for (size_t k = 0; k < numbers.size(); ++k)
+      if (std::find(names.begin(), names.end(), variables[k].name) != names.end()) used.push_back(numbers[k]);
     system_.constraints.push_back(
-        formula_constraint(f.has("name") ? name : "'" + text + "'", *expression, numbers, is_inequality));
+        formula_constraint(f.has("name") ? name : "'" + text + "'", *expression, numbers, used, is_inequality));
   }
 
   // Of the start's points and distances; errors are relative to it.
