@@ -5,7 +5,7 @@ import random
 import re
 import unittest
 
-from program import ProgramTest, ROOT
+from program import ProgramTest, ROOT, USAGE
 
 NET = "[[0, 0, 0], [0, 1, 1], [0, 2, 0], [0, 3, 1]], [[1, 0, 1], [1, 1, 3], [1, 2, 1], [1, 3, 0]], " \
       "[[2, 0, 0], [2, 1, 1], [2, 2, 2], [2, 3, 0]]"
@@ -222,6 +222,20 @@ class TraceThenEvaluate(ProgramTest):
                                ("arc", "2", "outside the domain 0 to 1.57079633, this is the continuation"),
                                ("wave", "1.5", "t = 1.5 lies outside"), ("pipe", "7,4", "v = 4 lies outside")):
             self.assertIn(note, self.run_program("evaluate", "scene.yaml", name, "--at", at)[1])
+
+    def test_options_of_other_things_are_refused(self):
+        self.write("scene.yaml", "lekalo: 1\ngeometry:\n  ring: { type: circle, radius: 1 }\n  ball: { type: sphere_surface, radius: 2 }\n"
+                   "  polar: { type: coordinate_surface, point: [u*cos(v), u*sin(v), w], hold: u, at: 1, "
+                   "domain: { u: [0, 6], v: [0, 1] }, transform: [{ scale: 2 }, { translate: [0, 0, 3] }] }\n")
+        for *arguments, message in (("ring", "--at", "1", "--metric", "--metric and --face belong to surfaces"),
+                                    ("ring", "--at", "1", "--face", "0", "--metric and --face belong to surfaces"),
+                                    ("ball", "--at", "1,1", "--order", "3", "--order belongs to curves"),
+                                    ("polar", "--at", "1,0,0", "--along", "1,0", "take --at U,V of the surface"),
+                                    ("polar", "--at", "1,0,0", "--turn", "5", "take --at U,V of the surface")):
+            self.assertIn(message, self.run_program("evaluate", "scene.yaml", *arguments, code=USAGE)[1])
+        # Coordinates move with their surface.
+        found = self.json_of("evaluate", "scene.yaml", "polar", "--at", "3,0,0.5")
+        self.assert_near(found["point"] + sum(found["basis"], []), [6, 0, 4, 2, 0, 0, 0, 6, 0, 0, 0, 2], 1e-14)
 
     def test_curvatures_at_a_pole(self):
         self.write("scene.yaml", "lekalo: 1\ngeometry:\n  dish: { type: formula_surface, coordinates: cylindrical, "

@@ -12,6 +12,7 @@
 #include "geometry/queries/differential/osculation.h"
 #include "geometry/queries/differential/trihedron.h"
 #include "geometry/queries/differential/turning_step.h"
+#include "geometry/transformed.h"
 #include "parameters.h"
 
 namespace lekalo::command {
@@ -128,7 +129,7 @@ struct Options {
   std::string name, at, uv, table, face, divided_difference;
   std::vector<std::string> on, along;
   double share = 0.5, turn = 0;  // turn: degrees
-  int order = 2;
+  std::optional<int> order;
   bool placement = false, metric = false, json = false;
 };
 
@@ -210,7 +211,7 @@ ordered_json evaluate_at(const render::LoadedScene& scene, const render::Entity&
                          const std::vector<double>& at) {
   if (const auto* curve = std::get_if<geometry::CurvePtr>(&entity)) {
     note_outside("t", at[0], (*curve)->domain(), (*curve)->period());
-    ordered_json out = evaluate_curve(**curve, at[0], options.order);
+    ordered_json out = evaluate_curve(**curve, at[0], options.order.value_or(2));
     if (options.turn > 0)
       out["step"] =
           finite_or_null(geometry::turning_step((*curve)->evaluate(at[0], 2), options.turn * geometry::kPi / 180));
@@ -218,8 +219,11 @@ ordered_json evaluate_at(const render::LoadedScene& scene, const render::Entity&
     return out;
   }
   const geometry::SurfacePtr surface = surface_of(entity, options);
-  if (const auto* one = dynamic_cast<const geometry::CoordinateSurface*>(surface.get()); one && at.size() != 2)
-    return at.size() == 1 ? evaluate_path(one->system(), at[0]) : evaluate_system(one->system(), at);
+  if (const auto [one, map] = geometry::placed<geometry::CoordinateSurface>(*surface); one && at.size() != 2) {
+    if (!options.along.empty() || options.turn > 0)
+      throw UsageError("--along and --turn take --at U,V of the surface, not its coordinates in space");
+    return at.size() == 1 ? evaluate_path(one->system(), map, at[0]) : evaluate_system(one->system(), map, at);
+  }
   note_outside("u", at[0], surface->domain().u, surface->periods().u);
   note_outside("v", at[1], surface->domain().v, surface->periods().v);
   return evaluate_surface(*surface, {at[0], at[1]}, directions_of(options), options.turn * geometry::kPi / 180,
@@ -230,7 +234,7 @@ ordered_json evaluate_at(const render::LoadedScene& scene, const render::Entity&
 std::vector<double> place_of(const render::Entity& entity, const Options& options) {
   if (std::holds_alternative<geometry::CurvePtr>(entity)) return parse_numbers(options.at, 1, "--at of a curve");
   const auto* surface = std::get_if<geometry::SurfacePtr>(&entity);
-  if (surface && dynamic_cast<const geometry::CoordinateSurface*>(surface->get())) {
+  if (surface && geometry::placed<geometry::CoordinateSurface>(**surface).surface) {
     const std::vector<double> at = parse_numbers(options.at, 0, "--at");
     if (at.size() > 3) throw UsageError("--at of coordinates takes U,V,W, or T of their path");
     return at;
@@ -271,7 +275,9 @@ int run(const Options& options) {
   if (!no_boundary.empty())
     throw UsageError(fmt::format("'{}' has no faces: its boundary is not made: {}", options.name, no_boundary));
   const bool is_curve = std::holds_alternative<geometry::CurvePtr>(entity);
-  if (!options.along.empty() && is_curve) throw UsageError("--along belongs to surfaces");
+  if (is_curve && (!options.along.empty() || options.metric || !options.face.empty()))
+    throw UsageError("--along, --metric and --face belong to surfaces");
+  if (!is_curve && options.order) throw UsageError("--order belongs to curves");
   if (!is_curve && (options.placement || !options.on.empty()))
     throw UsageError("--placement and --on belong to curves");
   ordered_json out;
@@ -345,8 +351,8 @@ void add_evaluate(CLI::App& app, Action& action) {
              "the step of the parameter over which the tangent, or along u and v the normal, turns by this angle")
           ->type_name("DEGREES")
           ->check(CLI::PositiveNumber);
-  sub->add_flag("--metric", options->metric,
-                "of a surface also Christoffel's symbols and the curvature tensors of its metric");
+  auto* metric = sub->add_flag("--metric", options->metric,
+                               "of a surface also Christoffel's symbols and the curvature tensors of its metric");
   auto* order = sub->add_option("--order", options->order, "derivatives of a curve up to this order")
                     ->check(CLI::Range(1, geometry::kMaxCurveOrder));
   auto* placement =
@@ -360,7 +366,7 @@ void add_evaluate(CLI::App& app, Action& action) {
       ->check(CLI::Range(0.0, 1.0))
       ->needs(on);
   // What these do not tell.
-  uv->excludes(turn)->excludes(order);
+  uv->excludes(turn)->excludes(order)->excludes(metric);
   nodes->excludes(turn)->excludes(order)->excludes(placement)->excludes(on);
   sub->add_flag("--json", options->json, "print JSON");
   sub->callback([&action, options] { action = [options] { return run(*options); }; });

@@ -40,9 +40,10 @@ template <int D>
 void put_connection(ordered_json& out, const geometry::Connection<D>& connection);
 
 // The local basis of curvilinear coordinates at u, v, w, and what becomes of the fields given in them. Throws
-// UsageError where the basis has no volume.
-ordered_json evaluate_system(const geometry::CurvilinearSystem& system, const std::vector<double>& at);
+// UsageError where the basis has no volume. `map`: of the space that they are in.
+ordered_json evaluate_system(const geometry::CurvilinearSystem& system, const geometry::Affine& map,
+                             const std::vector<double>& at);
 // The same at t of the system's path, with the derivatives of the path and of the vector carried along it.
-ordered_json evaluate_path(const geometry::CurvilinearSystem& system, double t);
+ordered_json evaluate_path(const geometry::CurvilinearSystem& system, const geometry::Affine& map, double t);
 
 }  // namespace lekalo::command

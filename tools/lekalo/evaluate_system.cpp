@@ -34,13 +34,14 @@ std::vector<Space> fields_at(const std::vector<Expression>& formulas, const Comp
   return result;
 }
 
-geometry::LocalBasis<3> basis_at(const CurvilinearSystem& system, const Components<3>& at) {
+geometry::LocalBasis<3> basis_at(const CurvilinearSystem& system, const geometry::Affine& map,
+                                 const Components<3>& at) {
   const std::vector<Space> x = fields_at(system.point, at);
   const auto vector = [&](std::initializer_list<int> axes) {
-    return Vec3(derivative(x[0], axes), derivative(x[1], axes), derivative(x[2], axes));
+    return map.direction(Vec3(derivative(x[0], axes), derivative(x[1], axes), derivative(x[2], axes)));
   };
   geometry::LocalBasis<3> b;
-  b.point = vector({});
+  b.point = map.point({x[0].c[0], x[1].c[0], x[2].c[0]});
   for (int i = 0; i < 3; ++i) {
     b.r[i] = vector({i});
     for (int j = 0; j < 3; ++j) {
@@ -175,8 +176,8 @@ void put_change(ordered_json& out, const CurvilinearSystem& system, const Place&
   out["other_components"] = finite_or_null(there);
 }
 
-Place place_at(const CurvilinearSystem& system, const Components<3>& at) {
-  const geometry::LocalBasis<3> basis = basis_at(system, at);
+Place place_at(const CurvilinearSystem& system, const geometry::Affine& map, const Components<3>& at) {
+  const geometry::LocalBasis<3> basis = basis_at(system, map, at);
   const auto c = geometry::connection(basis);
   if (!c) throw UsageError("the coordinates are singular there: their local basis has no volume");
   return {at, basis, *c, glm::dot(basis.r[0], glm::cross(basis.r[1], basis.r[2]))};
@@ -208,8 +209,9 @@ void put_connection(ordered_json& out, const Connection<D>& c) {
 template void put_connection(ordered_json&, const Connection<2>&);
 template void put_connection(ordered_json&, const Connection<3>&);
 
-ordered_json evaluate_system(const CurvilinearSystem& system, const std::vector<double>& at) {
-  const Place place = place_at(system, {at[0], at[1], at[2]});
+ordered_json evaluate_system(const CurvilinearSystem& system, const geometry::Affine& map,
+                             const std::vector<double>& at) {
+  const Place place = place_at(system, map, {at[0], at[1], at[2]});
   ordered_json out;
   put_place(out, place);
   if (system.scalar) put_scalar(out, *system.scalar, place);
@@ -220,14 +222,14 @@ ordered_json evaluate_system(const CurvilinearSystem& system, const std::vector<
 }
 
 // D a/dt = (da^i/dt + a^n Gamma^i_nj du^j/dt) r_i (A.2.6), and with a = du/dt the second derivative of the curve.
-ordered_json evaluate_path(const CurvilinearSystem& system, double t) {
+ordered_json evaluate_path(const CurvilinearSystem& system, const geometry::Affine& map, double t) {
   if (system.path.empty())
     throw UsageError("--at takes U,V,W of the coordinates, or U,V of the surface: there is no 'path'");
   Path variable(t);
   variable.c[1] = 1;
   std::array<Path, 3> u, a;
   for (size_t k = 0; k < 3; ++k) u[k] = system.path[k](variable);
-  const Place place = place_at(system, {u[0].c[0], u[1].c[0], u[2].c[0]});
+  const Place place = place_at(system, map, {u[0].c[0], u[1].c[0], u[2].c[0]});
   const auto along = [&](const Components<3>& value, const Components<3>& rate) {
     Components<3> result = rate;
     for (int i = 0; i < 3; ++i)
