@@ -99,8 +99,10 @@ size_t index_of(const std::vector<double>& at, double t) {
       at.begin());
 }
 
-// The places inside of the secant, from the point `from` of the rim to the point `to`; `size`: that of the rim.
-std::vector<Vec3> places_along(const Curve& secant, const Vec3& from, const Vec3& to, double size, int count) {
+// The places inside of the secant, from the point `from` of the rim to the point `to`; `normal`, `size`: those of the
+// rim.
+std::vector<Vec3> places_along(const Curve& secant, const Vec3& from, const Vec3& to, const Vec3& normal, double size,
+                               int count) {
   const Interval domain = secant.domain();
   const auto begins_at = [&](const Vec3& p) { return glm::length(secant.point(domain.lo) - p) <= kSamePoint * size; };
   const auto ends_at = [&](const Vec3& p) { return glm::length(secant.point(domain.hi) - p) <= kSamePoint * size; };
@@ -109,6 +111,9 @@ std::vector<Vec3> places_along(const Curve& secant, const Vec3& from, const Vec3
     throw std::invalid_argument("the secant does not go from one end of the chord to the other");
   std::vector<Vec3> result;
   for (const double t : parameters(secant, count, {})) result.push_back(secant.point(t));
+  for (const Vec3& p : result)
+    if (std::abs(glm::dot(p - from, normal)) > kSamePoint * size)
+      throw std::invalid_argument("the secant leaves the plane of the curve");
   result.erase(result.begin());  // the rim has it
   if (!forth) std::reverse(result.begin(), result.end());
   return result;
@@ -141,8 +146,8 @@ SheetRim sheet_rim(const Curve& curve, const std::optional<std::pair<double, dou
     std::vector<Vec2> points, along;  // along: from the first end of the chord to the second
     for (const double t : at) points.push_back(in_plane(curve.point(t)));
     if (secant)
-      for (const Vec3& p :
-           places_along(*secant, curve.point(places[0]), curve.point(places[1]), bounds(curve).diameter(), count))
+      for (const Vec3& p : places_along(*secant, curve.point(places[0]), curve.point(places[1]), frame.z,
+                                        bounds(curve).diameter(), count))
         along.push_back(in_plane(p));
     result.turning_number = Polygon(points).turning_number();
     if (Polygon(points).crossings() != result.crossings) continue;

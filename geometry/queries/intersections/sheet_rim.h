@@ -24,7 +24,7 @@ struct SheetRim {
 
 // `chord`: parameters of the two points; `secant`: a curve from one to the other, null: the straight line. Throws
 // std::invalid_argument for a curve that is not plane or not closed, that touches itself or runs through a part twice,
-// a chord without length, or a secant that does not end at its points.
+// a chord without length, or a secant that leaves the plane or does not end at its points.
 SheetRim sheet_rim(const Curve& curve, const std::optional<std::pair<double, double>>& chord = std::nullopt,
                    const Curve* secant = nullptr);
 
