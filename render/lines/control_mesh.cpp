@@ -4,6 +4,7 @@
 
 #include "geometry/surfaces/splines/t_spline.h"
 #include "geometry/surfaces/triangles/bezier_triangle.h"
+#include "geometry/transformed.h"
 
 namespace lekalo::render {
 
@@ -66,10 +67,10 @@ ControlMesh mesh_of(const TSpline& spline, const std::vector<Vec3>& points) {
 }  // namespace
 
 std::optional<ControlMesh> control_mesh(const Surface& surface) {
-  if (const PlacedTSpline placed = placed_t_spline(surface); placed.spline) {
+  if (const auto [spline, map] = placed<TSpline>(surface); spline) {
     std::vector<Vec3> points;
-    for (const Vec3& p : placed.spline->points()) points.push_back(placed.map.point(p));
-    return mesh_of(*placed.spline, points);
+    for (const Vec3& p : spline->points()) points.push_back(map.point(p));
+    return mesh_of(*spline, points);
   }
   if (const auto net = triangular_net(surface)) return mesh_of(*net);
   if (const auto form = surface.as_nurbs()) return mesh_of(*form, surface.periods());
@@ -78,7 +79,7 @@ std::optional<ControlMesh> control_mesh(const Surface& surface) {
 
 std::optional<ControlMesh> shown_mesh(const Surface& surface, const Helper& helper) {
   if (helper.type == "control_net") return control_mesh(surface);
-  const TSpline* spline = placed_t_spline(surface).spline;
+  const TSpline* spline = placed<TSpline>(surface).surface;
   if (helper.type != "t_mesh" || is_mesh_on_surface(helper) || !spline) return std::nullopt;
   std::vector<Vec3> places;
   for (size_t i = 0; i < spline->points().size(); ++i) places.emplace_back(spline->place(static_cast<int>(i)), 0);

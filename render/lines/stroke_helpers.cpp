@@ -8,6 +8,7 @@
 #include "geometry/curves/splines/nurbs_curve.h"
 #include "geometry/surfaces/splines/t_spline.h"
 #include "geometry/surfaces/triangles/bezier_triangle.h"
+#include "geometry/transformed.h"
 #include "render/lines/curve_figures.h"
 #include "render/lines/curve_helpers.h"
 #include "render/lines/mesh_figures.h"
@@ -202,7 +203,7 @@ void StrokeCollector::add_triangle(TriangularNet net, const ParameterTriangle& t
 
 // The lines of the mesh on the surface itself, as far as it goes.
 void StrokeCollector::add_mesh_image(const SurfacePtr& surface, const std::string& sign, const Helper& helper) {
-  const TSpline* of = placed_t_spline(*surface).spline;
+  const TSpline* of = placed<TSpline>(*surface).surface;
   if (!of) return;
   const TSpline& spline = *of;
   const Rectangle domain = spline.domain();

@@ -124,12 +124,6 @@ Vec2 TSpline::place(int i) const {
   return {functions_[i].u[middle], functions_[i].v[middle]};
 }
 
-PlacedTSpline placed_t_spline(const Surface& surface) {
-  if (const auto* moved = dynamic_cast<const TransformedSurface*>(&surface))
-    return {dynamic_cast<const TSpline*>(moved->original().get()), moved->map()};
-  return {dynamic_cast<const TSpline*>(&surface), {}};
-}
-
 Rectangle valid_domain(const TMesh& mesh, const std::vector<LocalKnots>& functions) {
   Vec2 lo(kInfinity), hi(-kInfinity);
   for (const Vec2& p : mesh.vertices) lo = glm::min(lo, p), hi = glm::max(hi, p);

@@ -38,13 +38,6 @@ class TSpline final : public Surface {
   NurbsSurface surface_;
 };
 
-// A T-spline, or an image of one.
-struct PlacedTSpline {
-  const TSpline* spline = nullptr;  // null: it is none
-  Affine map;
-};
-PlacedTSpline placed_t_spline(const Surface& surface);
-
 // Where the functions of a mesh sum to 1 if its lines near the border are full ones: (degree - 1)/2 cells from the
 // border on (Golovanov 2016, 3.9). Throws FieldError (field degree) for too small a mesh.
 Rectangle valid_domain(const TMesh& mesh, const std::vector<LocalKnots>& functions);
