@@ -245,7 +245,7 @@ class Builder {
   void solve_constraints();
 
   // --- builder_scene.cpp: sections to model.
-  std::optional<Quantity> measured(const Value& map);
+  std::optional<MeasuredQuantity> measured(const Value& map);
   void check_sections();
   void build_named(Model& model);
   // Calls visit(name, built) for everything right in a named section.

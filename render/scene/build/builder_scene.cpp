@@ -62,12 +62,12 @@ Builder::Builder(const SceneDescription& scene, const BuildOptions& options, Dia
 }
 
 // To measure a thing is no use of it: it is shown all the same.
-std::optional<Quantity> Builder::measured(const Value& map) {
+std::optional<MeasuredQuantity> Builder::measured(const Value& map) {
   static const Category wanted[] = {Category::quantity};
   const bool outer = std::exchange(names_use_, false);
   const auto built = build_typed(map, {}, wanted);
   names_use_ = outer;
-  return built ? std::optional(std::any_cast<Quantity>(built->value)) : std::nullopt;
+  return built ? std::optional(std::any_cast<MeasuredQuantity>(built->value)) : std::nullopt;
 }
 
 Model Builder::build() {

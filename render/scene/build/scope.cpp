@@ -72,7 +72,7 @@ const Expression::Constant* Parameters::lookup(const std::string& name, std::str
 
 std::optional<Expression::Constant> Parameters::evaluated(const std::string& name, const Value& value) {
   if (value.is_map() && measuring_ && !value.invalid) {
-    const std::optional<Quantity> found = measuring_(value);
+    const std::optional<MeasuredQuantity> found = measuring_(value);
     return found ? std::optional(Expression::Constant{name, found->value, found->measure, false}) : std::nullopt;
   }
   const std::optional<Expression> expression = bind(value, {});

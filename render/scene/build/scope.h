@@ -33,7 +33,7 @@ class Parameters {
   Parameters(const Value* section, Diagnostics& diagnostics);
 
   // Measures what a parameter asks of the geometry, { type: distance, ... }; nothing after an error, which it reports.
-  using Measuring = std::function<std::optional<Quantity>(const Value&)>;
+  using Measuring = std::function<std::optional<MeasuredQuantity>(const Value&)>;
   void measure_by(Measuring measuring) { measuring_ = std::move(measuring); }
 
   // The formula of a scalar with all names replaced: counters, then parameters. Reports errors at the value and gives

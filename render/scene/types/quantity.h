@@ -6,7 +6,7 @@
 namespace lekalo::render {
 
 // What a type of the category `quantity` builds: a plain number, or an angle in radians.
-struct Quantity {
+struct MeasuredQuantity {
   double value = 0;
   geometry::Measure measure = geometry::Measure::plain;
 };

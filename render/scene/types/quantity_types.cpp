@@ -36,7 +36,7 @@ TypeDeclaration distance_type() {
       .example("from: [1, 2, 3], to: { type: circle, radius: 1 }")
       .built_by([](const Fields& f) {
         const Distant a = distant(f.any("from")), b = distant(f.any("to"));
-        return Quantity{distance(a, b, DistanceMinima::nearest).distance};
+        return MeasuredQuantity{distance(a, b, DistanceMinima::nearest).distance};
       });
 }
 
@@ -47,7 +47,7 @@ TypeDeclaration angle_between_type() {
       .example("from: x, to: [1, 1, 0]")
       .built_by([](const Fields& f) {
         const Vec3 a = f.vec3("from"), b = f.vec3("to");
-        return Quantity{std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)), Measure::angle};
+        return MeasuredQuantity{std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)), Measure::angle};
       });
 }
 
@@ -57,7 +57,7 @@ TypeDeclaration scalar_product_type() {
       .field("first", vector(), "the first vector")
       .field("second", vector(), "the second vector")
       .example("first: [1, 2, 3], second: z")
-      .built_by([](const Fields& f) { return Quantity{glm::dot(f.vec3("first"), f.vec3("second"))}; });
+      .built_by([](const Fields& f) { return MeasuredQuantity{glm::dot(f.vec3("first"), f.vec3("second"))}; });
 }
 
 TypeDeclaration arc_length_type() {
@@ -68,12 +68,12 @@ TypeDeclaration arc_length_type() {
       .example("of: { type: circle, radius: 1 }")
       .built_by([](const Fields& f) {
         const CurvePtr curve = f.curve("of");
-        if (!f.has("from") && !f.has("to")) return Quantity{measure(*curve).length.value};
+        if (!f.has("from") && !f.has("to")) return MeasuredQuantity{measure(*curve).length.value};
         const Interval domain = curve->domain();
         const double from = f.has("from") ? f.number("from") : domain.lo, to = f.has("to") ? f.number("to") : domain.hi;
         const double length = arc_length(*curve, from, to).value;
         if (!std::isfinite(length)) throw FieldError("of", "the length of this part cannot be told");
-        return Quantity{length};
+        return MeasuredQuantity{length};
       });
 }
 
@@ -82,8 +82,8 @@ TypeDeclaration area_type() {
       .field("of", reference({Category::surface, Category::body}), "the surface or body")
       .example("of: { type: sphere_surface, radius: 1 }")
       .built_by([](const Fields& f) {
-        if (f.holds<SurfacePtr>("of")) return Quantity{measure(*f.surface("of")).area.value};
-        return Quantity{measure(*f.body("of")).area.value};
+        if (f.holds<SurfacePtr>("of")) return MeasuredQuantity{measure(*f.surface("of")).area.value};
+        return MeasuredQuantity{measure(*f.body("of")).area.value};
       });
 }
 
@@ -94,7 +94,7 @@ TypeDeclaration volume_type() {
       .built_by([](const Fields& f) {
         const MassProperties found = measure(*f.body("of"));
         if (!found.closed) throw FieldError("of", "this body has free borders: it has no volume");
-        return Quantity{found.volume.value};
+        return MeasuredQuantity{found.volume.value};
       });
 }
 
@@ -106,7 +106,7 @@ TypeDeclaration curvature_type() {
       .built_by([](const Fields& f) {
         const double found = curvature(*f.curve("of"), f.number("t")).curvature;
         if (!std::isfinite(found)) throw FieldError("t", "the curve has no finite curvature there");
-        return Quantity{found};
+        return MeasuredQuantity{found};
       });
 }
 
@@ -118,7 +118,7 @@ TypeDeclaration closest_parameter_type() {
       .built_by([](const Fields& f) {
         const CurveFootPoints found = project(f.vec3("to"), *f.curve("of"));
         if (found.foot_points.empty()) throw FieldError("of", "no foot was found: its formulas have no finite bounds");
-        return Quantity{found.foot_points.front().t};
+        return MeasuredQuantity{found.foot_points.front().t};
       });
 }
 
