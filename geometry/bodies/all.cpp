@@ -42,7 +42,8 @@
   X(inverted_body_type)        \
   X(symmetric_body_type)       \
   X(nearest_extrusion_type)    \
-  X(rib_type)
+  X(rib_type)                  \
+  X(milling_cutter_type)
 
 namespace lekalo::geometry {
 

@@ -79,7 +79,10 @@
   X(rounded_corners_type)         \
   X(implicit_curve_type)          \
   X(blend_curve_type)             \
-  X(frame_section_type)
+  X(frame_section_type)           \
+  X(cutter_path_type)             \
+  X(flank_path_type)              \
+  X(tool_path_type)
 
 namespace lekalo::geometry {
 

@@ -128,6 +128,7 @@ ordered_json measures(const std::string& name, const render::Entity& given) {
       // A line found by steps says how far it may be from the one that is meant.
       const auto* line = dynamic_cast<const geometry::SurfaceCurve*>(curve->get());
       if (line && line->error() > 0) out["deviation"] = line->error();
+      if (const auto* path = dynamic_cast<const geometry::ToolPath*>(curve->get())) put_tool_path(out, *path);
       const auto* blend = dynamic_cast<const geometry::ArcBlendCurve*>(curve->get());
       if (blend) out["segments"] = blend->segments();
       if (blend && blend->bounds()) {
@@ -189,7 +190,7 @@ void print_measures(const ordered_json& measured) {
     std::replace(label.begin(), label.end(), '_', ' ');
     fmt::print("{:<18} {}", label,
                is_matrix ? vector_text(value[0])
-               : key == "half_axes"
+               : value.is_array() && value.size() == 2
                    ? fmt::format("{} {}", digits(value[0].get<double>()), digits(value[1].get<double>()))
                : value.is_array() ? vector_text(value)
                                   : digits(value.get<double>()));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "geometry/contour.h"
+#include "geometry/machining/tool_path.h"
 #include "geometry/mesh.h"
 #include "geometry/queries/closest/distance.h"
 #include "json.h"
@@ -143,6 +144,10 @@ void print_rim(const ordered_json& found);
 ordered_json stretch_of(const std::string& name, const render::Entity& entity, const std::string& other_name,
                         const render::Entity& other, int samples);
 void print_stretch(const ordered_json& found);
+
+// Rows, lengths, time, height of cusps, widths of strips of a cutter's path, and by how much the cutter is more curved
+// than the part at least.
+void put_tool_path(ordered_json& out, const geometry::ToolPath& path);
 
 // Parts of these outputs: what keeps a mesh from being closed, as convex_sides, turned_sides, crowded_sides; a range of
 // a parameter; a point back from JSON; the row's parameters as text.

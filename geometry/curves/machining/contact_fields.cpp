@@ -1,0 +1,72 @@
+#include "geometry/curves/machining/contact_fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lekalo::geometry {
+
+namespace {
+
+Vec3 vec(const Triple<double>& a) { return {a.x, a.y, a.z}; }
+
+// Of the largest order that enclosures and derivatives of the surface and the line's image leave.
+CurveProperties properties_on(const SurfaceContact& contact, const Curve& on) {
+  CurveProperties properties = properties_of(on);
+  const Surface& surface = *contact.line.of;
+  properties.max_order = std::min(kMaxSurfaceOrder, surface.max_order()) - 1;
+  properties.enclosure_order = std::min(kMaxCurveEnclosureOrder, surface.enclosure_order()) - 1;
+  if (const CurvePtr& image = contact.line.image) {
+    properties.max_order = std::min(properties.max_order, image->max_order() - 1);
+    properties.enclosure_order = std::min(properties.enclosure_order, image->enclosure_order() - 1);
+  }
+  return properties;
+}
+
+}  // namespace
+
+FieldType cutter_field() { return group(cutter_fields()); }
+
+void declare_contact(TypeDeclaration& type) {
+  type.field("cutter", cutter_field(), "the milling cutter: radius, corner_radius, length, angle")
+      .field("allowance", length(), "what is left on the surface", "0")
+      .field("side", choice({"front", "back"}), "where the cutter is: on the side of the surface's normal, or opposite",
+             "front")
+      .field("gouging", choice({"refuse", "allow"}),
+             "a cutter that is less curved than the part somewhere, and cuts into it: an error, or a number of "
+             "'lekalo measure'",
+             "refuse");
+  declare_axis_of_tool(type);
+}
+
+SurfaceContact read_contact(const Fields& f) {
+  SurfaceContact contact;
+  contact.line.of = f.surface("of");
+  contact.cutter = read_cutter(f.group("cutter"), "cutter.");
+  contact.axis = read_axis_of_tool(f);
+  contact.allowance = f.number("allowance");
+  contact.side = contact.line.of->normal_sign() * (f.text("side") == "front" ? 1 : -1);
+  return contact;
+}
+
+void check_gouging(const Fields& f, const ToolPathFacts::Bend& bend) {
+  if (f.text("gouging") == "allow" || !(bend.least_difference < 0)) return;
+  throw FieldError("cutter",
+                   fmt::format("the cutter cuts into the part at u = {:.6g}, v = {:.6g}: there its curvature is {:.6g} "
+                               "less than that of the surface",
+                               bend.u, bend.v, -bend.least_difference),
+                   "a smaller corner_radius or radius, the other side, or gouging: allow");
+}
+
+ToolMove contact_move(const SurfaceContact& contact, const Curve& on, ToolMove::Kind kind, PathPoint point) {
+  check_contact(contact, on.domain());
+  const auto pose = [contact](double t) {
+    const CutterPlace<double> place = contact.at(t);
+    return CutterPose{vec(place.reference), vec(place.axis),
+                      CutterPose::Contact{vec(place.contact), vec(place.normal)}};
+  };
+  using Path = ContactPath<SurfaceContact>;
+  return {kind, std::make_shared<ComposedCurve<Path>>(Path{contact, point}, properties_on(contact, on)), pose};
+}
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,23 @@
+// What the paths of cutters over surfaces have in common in scene files.
+#pragma once
+
+#include "geometry/machining/cutter_place.h"
+#include "geometry/machining/tool_path.h"
+
+namespace lekalo::geometry {
+
+// `cutter`, `allowance`, `side`, `gouging` and the axis.
+void declare_contact(TypeDeclaration& type);
+// Without its line, but for the surface.
+SurfaceContact read_contact(const Fields& fields);
+
+// Throws FieldError (field `gouging`) where the cutter cuts into the part and the fields do not allow it.
+void check_gouging(const Fields& fields, const ToolPathFacts::Bend& bend);
+
+// The path of the cutter along the contact's line, which is `on` with its domain, breaks and period. Throws FieldError
+// where the corner does not touch along it.
+ToolMove contact_move(const SurfaceContact& contact, const Curve& on, ToolMove::Kind kind, PathPoint point);
+
+FieldType cutter_field();
+
+}  // namespace lekalo::geometry

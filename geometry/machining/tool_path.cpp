@@ -1,0 +1,62 @@
+#include "geometry/machining/tool_path.h"
+
+#include <algorithm>
+
+#include "geometry/curves/derived/composite_curve.h"
+
+namespace lekalo::geometry {
+
+namespace {
+
+// Moves join to rounding, of the size of the path.
+constexpr double kJoint = 1e-9;
+
+CurvePtr joined(const std::vector<ToolMove>& moves) {
+  if (moves.size() == 1) return moves.front().curve;
+  std::vector<CurvePtr> curves;
+  for (const ToolMove& move : moves) curves.push_back(move.curve);
+  return std::make_shared<CompositeCurve>(std::move(curves), false, kJoint);
+}
+
+}  // namespace
+
+std::string_view name(ToolMove::Kind kind) {
+  switch (kind) {
+    case ToolMove::Kind::cut:
+      return "cut";
+    case ToolMove::Kind::link:
+      return "link";
+    case ToolMove::Kind::approach:
+      return "approach";
+    case ToolMove::Kind::exit:
+      return "exit";
+    case ToolMove::Kind::rapid:
+      break;
+  }
+  return "rapid";
+}
+
+double Feeds::of(ToolMove::Kind kind) const {
+  if (kind == ToolMove::Kind::approach) return approach;
+  const bool is_free = kind == ToolMove::Kind::rapid || kind == ToolMove::Kind::exit;
+  return is_free ? rapid : cut;
+}
+
+ToolPath::ToolPath(Cutter cutter, std::vector<ToolMove> moves, std::optional<Feeds> feeds, ToolPathFacts facts)
+    : cutter_(cutter), moves_(std::move(moves)), feeds_(feeds), facts_(facts), curve_(joined(moves_)) {
+  double start = curve_->domain().lo;
+  for (const ToolMove& move : moves_) {
+    starts_.push_back(start);
+    start += move.curve->domain().width();
+  }
+}
+
+CutterPose ToolPath::pose(double t) const {
+  const double inside = domain().clamp(t);
+  const auto after = std::upper_bound(starts_.begin() + 1, starts_.end(), inside);
+  const size_t k = static_cast<size_t>(after - starts_.begin()) - 1;
+  const Interval own = moves_[k].curve->domain();
+  return moves_[k].pose(own.clamp(own.lo + (inside - starts_[k])));
+}
+
+}  // namespace lekalo::geometry

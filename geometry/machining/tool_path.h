@@ -1,0 +1,85 @@
+// The path of a cutter: moves that follow one another, with the place of the cutter at each parameter and what is known
+// of the whole (Zavyalov, Leus, Skorospelov 1985, V.1, VII.2).
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "geometry/curve.h"
+#include "geometry/machining/cutter.h"
+
+namespace lekalo::geometry {
+
+// Where the cutter is: P, q, and where it cuts the contact with the normal.
+struct CutterPose {
+  Vec3 reference{0}, axis{0, 0, 1};
+  struct Contact {
+    Vec3 point{0}, normal{0, 0, 1};
+  };
+  std::optional<Contact> contact;
+};
+
+struct ToolMove {
+  enum class Kind { cut, link, approach, exit, rapid };
+  Kind kind = Kind::cut;
+  CurvePtr curve;                          // in space, over a finite domain
+  std::function<CutterPose(double)> pose;  // by the curve's parameter
+};
+std::string_view name(ToolMove::Kind kind);
+
+// Speeds in lengths by unit of time.
+struct Feeds {
+  double cut = 1, approach = 1, rapid = 1;
+  double of(ToolMove::Kind kind) const;
+};
+
+// What is known of a path; `u`, `v` where the least difference is.
+struct ToolPathFacts {
+  int rows = 0;  // 0: it is no path of rows
+  std::optional<double> scallop_height;
+  struct Bend {
+    double least_difference, u, v;
+  };
+  std::optional<Bend> bend;  // curvature of the cutter above that of the part: negative where it cuts into it
+  struct Strip {
+    double height, least_width, greatest_width, least_band, greatest_band;
+  };
+  std::optional<Strip> strip;
+};
+
+class ToolPath final : public Curve {
+ public:
+  // Each move begins where the one before ends. The parameter is that of the only move, or grows by that of each from
+  // 0.
+  ToolPath(Cutter cutter, std::vector<ToolMove> moves, std::optional<Feeds> feeds, ToolPathFacts facts);
+
+  const Cutter& cutter() const { return cutter_; }
+  const std::vector<ToolMove>& moves() const { return moves_; }
+  const std::optional<Feeds>& feeds() const { return feeds_; }
+  const ToolPathFacts& facts() const { return facts_; }
+  // The cutter at a parameter of the domain.
+  CutterPose pose(double t) const;
+
+  Interval domain() const override { return curve_->domain(); }
+  double period() const override { return curve_->period(); }
+  bool is_closed() const override { return curve_->is_closed(); }
+  CurveJet evaluate(double t, int order) const override { return curve_->evaluate(t, order); }
+  int max_order() const override { return curve_->max_order(); }
+  double fit_distance() const override { return curve_->fit_distance(); }
+  CurveEnclosure enclose(const Interval& t, int order) const override { return curve_->enclose(t, order); }
+  int enclosure_order() const override { return curve_->enclosure_order(); }
+  std::vector<CurvePiece> pieces() const override { return curve_->pieces(); }
+  std::optional<NurbsCurveForm> as_nurbs() const override { return curve_->as_nurbs(); }
+
+ private:
+  Cutter cutter_;
+  std::vector<ToolMove> moves_;
+  std::optional<Feeds> feeds_;
+  ToolPathFacts facts_;
+  CurvePtr curve_;
+  std::vector<double> starts_;  // parameters at which the moves begin
+};
+
+}  // namespace lekalo::geometry

@@ -1,0 +1,51 @@
+// What is known of the paths of cutters.
+#include <fmt/format.h>
+
+#include "command.h"
+#include "geometry/queries/measures/mass_properties.h"
+#include "measure.h"
+
+namespace lekalo::command {
+
+namespace {
+
+using geometry::ToolMove;
+
+struct Lengths {
+  double cutting = 0, in_air = 0, time = 0;
+};
+
+Lengths lengths_of(const geometry::ToolPath& path) {
+  Lengths sum;
+  for (const ToolMove& move : path.moves()) {
+    const double length = geometry::measure(*move.curve).length.value;
+    const bool cuts = move.kind == ToolMove::Kind::cut || move.kind == ToolMove::Kind::link;
+    (cuts ? sum.cutting : sum.in_air) += length;
+    if (path.feeds()) sum.time += length / path.feeds()->of(move.kind);
+  }
+  return sum;
+}
+
+}  // namespace
+
+void put_tool_path(ordered_json& out, const geometry::ToolPath& path) {
+  const geometry::ToolPathFacts& facts = path.facts();
+  if (facts.rows > 0) {
+    const Lengths lengths = lengths_of(path);
+    out["rows"] = facts.rows;
+    out["cutting_length"] = lengths.cutting;
+    out["length_in_air"] = lengths.in_air;
+    if (path.feeds()) out["time"] = lengths.time;
+  }
+  if (facts.scallop_height) out["scallop_height"] = *facts.scallop_height;
+  if (facts.bend) {
+    out["least_curvature_difference"] = facts.bend->least_difference;
+    out["least_difference_u"] = facts.bend->u;
+    out["least_difference_v"] = facts.bend->v;
+  }
+  if (!facts.strip) return;
+  out["strip_width"] = {facts.strip->least_width, facts.strip->greatest_width};
+  out["band_width"] = {facts.strip->least_band, facts.strip->greatest_band};
+}
+
+}  // namespace lekalo::command
