@@ -82,7 +82,9 @@
   X(frame_section_type)           \
   X(cutter_path_type)             \
   X(flank_path_type)              \
-  X(tool_path_type)
+  X(tool_path_type)               \
+  X(tool_program_type)            \
+  X(coverage_band_type)
 
 namespace lekalo::geometry {
 

@@ -31,6 +31,7 @@ struct Cutter {
   double rounding() const { return corner_radius > 0 ? corner_radius : 0; }
   // Of the circle on which the centres of the corner lie; negative for a pointed end, 0 for a ball end.
   double ring_radius() const { return radius - rounding(); }
+  bool operator==(const Cutter&) const = default;
   bool has_ball_end() const { return ring_radius() == 0; }
   // Where the corner ends and the flank begins: x the distance from the axis, y the height.
   Vec2 flank_start() const;

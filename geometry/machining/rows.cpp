@@ -12,8 +12,9 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr int kPlaces = 64;  // along a row
-constexpr int kGrid = 32;    // of a surface, for how far planes reach
+constexpr int kPlaces = 64;   // along a row
+constexpr int kGrid = 32;     // of a surface, for how far planes reach
+constexpr int kSettling = 8;  // of the distance to a row whose strip is narrower
 constexpr int kMostRows = 10000;
 
 template <class See>
@@ -76,12 +77,21 @@ std::vector<double> places_by_height(const RowFamily& family, double height) {
     places.push_back(at);
     check_count(static_cast<double>(places.size()), "scallop");
     double step = step_at(family, at, height);
-    step = std::min(step, step_at(family, std::min(at + step, next_down(range.hi)), height));
+    for (int k = 0; k < kSettling; ++k) {
+      const double next = step_at(family, std::min(at + step, next_down(range.hi)), height);
+      if (next >= step) break;
+      step = next;
+    }
     if (family.has_rows_at_ends() ? at + step >= range.hi : at + 0.5 * step >= range.hi) break;
     at += step;
     if (!family.has_rows_at_ends() && at >= range.hi) break;
   }
-  if (family.has_rows_at_ends() && !family.is_closed()) places.push_back(range.hi);
+  if (!family.has_rows_at_ends() || family.is_closed()) return places;
+  // The row before the last, where it is very near to that, goes to the middle between its neighbours.
+  const size_t n = places.size();
+  if (n > 1 && range.hi - places[n - 1] < 0.5 * (places[n - 1] - places[n - 2]))
+    places[n - 1] = 0.5 * (places[n - 2] + range.hi);
+  places.push_back(range.hi);
   return places;
 }
 

@@ -101,10 +101,7 @@ StripReport strip_report(const SurfaceContact& contact, const Interval& range, d
     const double width = bend.width(height);
     report.least_width = std::min(report.least_width, width);
     report.greatest_width = std::max(report.greatest_width, width);
-    // The part of the change that leads away from the line.
-    const Vec2 way = glm::normalize(Vec2(line.du, line.dv)), change = width * bend.across;
-    report.least_step = std::min(report.least_step, std::abs(way.x * change.y - way.y * change.x));
-    const double band = glm::length(change);
+    const double band = width * glm::length(bend.across);
     report.least_band = std::min(report.least_band, band);
     report.greatest_band = std::max(report.greatest_band, band);
   }

@@ -34,8 +34,7 @@ ContactBend contact_bend(const SurfaceContact& contact, double t);
 struct StripReport {
   double least_difference = kInfinity, u = 0, v = 0;   // and where
   double least_width = kInfinity, greatest_width = 0;  // of the strip within the height; without one not known
-  double least_step = kInfinity;  // of the held parameter, or of the distance across the image, by the least width
-  double greatest_band = 0, least_band = kInfinity;  // d: length of the change of (u, v) over the strip's width
+  double greatest_band = 0, least_band = kInfinity;    // d: length of the change of (u, v) over the strip's width
 };
 StripReport strip_report(const SurfaceContact& contact, const Interval& range, double height);
 

@@ -20,6 +20,14 @@ CurvePtr joined(const std::vector<ToolMove>& moves) {
 
 }  // namespace
 
+Frame frame_of(const CutterPose& pose) {
+  if (pose.contact) {
+    const Vec3 to = pose.contact->point - pose.reference, across = to - glm::dot(to, pose.axis) * pose.axis;
+    if (glm::length(across) > 1e-9 * glm::length(to)) return frame_from(pose.reference, pose.axis, across);
+  }
+  return frame_about(pose.reference, pose.axis);
+}
+
 std::string_view name(ToolMove::Kind kind) {
   switch (kind) {
     case ToolMove::Kind::cut:
@@ -49,6 +57,11 @@ ToolPath::ToolPath(Cutter cutter, std::vector<ToolMove> moves, std::optional<Fee
     starts_.push_back(start);
     start += move.curve->domain().width();
   }
+}
+
+std::optional<double> ToolPath::feed_of(const ToolMove& move) const {
+  if (move.feed) return move.feed;
+  return feeds_ ? std::optional(feeds_->of(move.kind)) : std::nullopt;
 }
 
 CutterPose ToolPath::pose(double t) const {

@@ -9,6 +9,7 @@
 
 #include "geometry/curve.h"
 #include "geometry/machining/cutter.h"
+#include "geometry/surface.h"
 
 namespace lekalo::geometry {
 
@@ -21,11 +22,15 @@ struct CutterPose {
   std::optional<Contact> contact;
 };
 
+// The frame of the cutter: origin P, z the axis, x towards the contact where that lies beside the axis.
+Frame frame_of(const CutterPose& pose);
+
 struct ToolMove {
   enum class Kind { cut, link, approach, exit, rapid };
   Kind kind = Kind::cut;
-  CurvePtr curve;                          // in space, over a finite domain
-  std::function<CutterPose(double)> pose;  // by the curve's parameter
+  CurvePtr curve;                             // in space, over a finite domain
+  std::function<CutterPose(double)> pose;     // by the curve's parameter
+  std::optional<double> feed = std::nullopt;  // its own, in place of that of its kind
 };
 std::string_view name(ToolMove::Kind kind);
 
@@ -47,6 +52,14 @@ struct ToolPathFacts {
     double height, least_width, greatest_width, least_band, greatest_band;
   };
   std::optional<Strip> strip;
+  SurfacePtr part;  // that it cuts; null of a path along a curve
+};
+
+// Where the strip within a height lies in the parameter plane of the surface: circles of the diameter d(t) about a
+// curve, d the length of the change of (u, v) over the strip's width.
+struct CoverageBand {
+  CurvePtr image;
+  std::function<double(double)> diameter;
 };
 
 class ToolPath final : public Curve {
@@ -57,8 +70,11 @@ class ToolPath final : public Curve {
 
   const Cutter& cutter() const { return cutter_; }
   const std::vector<ToolMove>& moves() const { return moves_; }
-  const std::optional<Feeds>& feeds() const { return feeds_; }
   const ToolPathFacts& facts() const { return facts_; }
+  // Speed of a move, if it is known.
+  std::optional<double> feed_of(const ToolMove& move) const;
+  const std::optional<CoverageBand>& band() const { return band_; }
+  void set_band(CoverageBand band) { band_ = std::move(band); }
   // The cutter at a parameter of the domain.
   CutterPose pose(double t) const;
 
@@ -78,6 +94,7 @@ class ToolPath final : public Curve {
   std::vector<ToolMove> moves_;
   std::optional<Feeds> feeds_;
   ToolPathFacts facts_;
+  std::optional<CoverageBand> band_;
   CurvePtr curve_;
   std::vector<double> starts_;  // parameters at which the moves begin
 };

@@ -17,6 +17,7 @@
 #include "geometry/queries/measures/arc_length.h"
 #include "geometry/queries/measures/curve_features.h"
 #include "render/lines/curve_helpers.h"
+#include "render/lines/tool_figures.h"
 
 namespace lekalo::render {
 
@@ -302,6 +303,10 @@ const std::map<std::string, Draw, std::less<>>& figures() {
        }},
       {"hulls", hulls},
       {"crossings", crossings},
+      {"cutters", cutters_figure},
+      {"tool_axes", tool_axes_figure},
+      {"contacts", contacts_figure},
+      {"tool_moves", tool_moves_figure},
       {"moved_point", moved_point}};
   return all;
 }

@@ -3,6 +3,7 @@
 //   osculating_circle, evolute, tangents, normal_lines, features, hodograph, direction      (Golovanov 2016, 2.1)
 //   insertion, elevation, hulls, moved_point                                      (2.4, 2.6, 2.11, 2.8: local support)
 //   crossings                                                                     (2.9: variation diminishing)
+//   cutters, tool_axes, contacts, tool_moves                       (tool_figures.h)
 #pragma once
 
 #include <string>

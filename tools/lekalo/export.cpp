@@ -135,7 +135,7 @@ int run(const Options& options) {
   std::string output = options.output;
   if (output.empty()) {
     if (options.format.empty())
-      throw UsageError("export takes -o FILE, or --format obj|ply|stl|gltf|glb|html|json|step|pov");
+      throw UsageError("export takes -o FILE, or --format obj|ply|stl|gltf|glb|html|json|step|pov|cldata");
     output = std::filesystem::path(options.scene.file).stem().string() + "." + options.format;
   }
   if (options.format == "json" || (options.format.empty() && output.ends_with(".json")))
@@ -144,6 +144,8 @@ int run(const Options& options) {
     return export_pov(options, output);
   if (options.format == "step" || (options.format.empty() && (output.ends_with(".step") || output.ends_with(".stp"))))
     return export_step(options, output);
+  if (options.format == "cldata" || (options.format.empty() && output.ends_with(".cldata")))
+    return export_cldata(options, output);
   for (const char* format : {"gltf", "glb", "html"})
     if (options.format == format || (options.format.empty() && output.ends_with(std::string(".") + format)))
       return export_gltf(options, format, output);
@@ -151,7 +153,7 @@ int run(const Options& options) {
   try {
     format = render::mesh_format(options.format.empty() ? output : "mesh." + options.format);
   } catch (const render::MeshFileError& error) {
-    throw UsageError(fmt::format("{}; or give --format obj|ply|stl|gltf|glb|html|json|step|pov", error.what()));
+    throw UsageError(fmt::format("{}; or give --format obj|ply|stl|gltf|glb|html|json|step|pov|cldata", error.what()));
   }
   const render::LoadedScene scene = options.scene.load();
   check_inputs_stay(scene, {output});
@@ -182,7 +184,7 @@ void add_export(CLI::App& app, Action& action) {
       app.add_subcommand("export",
                          "Write what a scene shows as triangles (OBJ, PLY, STL, glTF) and polylines (OBJ, glTF), "
                          "curves and surfaces as NURBS (JSON), boundary representations (STEP), the scene for POV-Ray, "
-                         "or a web page (HTML)");
+                         "a web page (HTML), or paths of cutters (CLDATA)");
   sub->footer(
       "Examples:\n"
       "  lekalo export teapot.yaml -o teapot.obj --sag 0.001\n"
@@ -200,13 +202,16 @@ void add_export(CLI::App& app, Action& action) {
       "fitted to a billionth of a curve's size, to 1e-12 of a surface's. STEP has bodies, surfaces, curves and points\n"
       "exactly where it has such (planes, cylinders, cones, spheres, tori, lines, circles, ellipses, NURBS), else\n"
       "fitted to --tolerance; lengths in info.unit. glTF (gltf, glb) has an\n"
-      "object a node, materials, and the lines that pictures show; html is a page that shows it and needs no others.");
+      "object a node, materials, and the lines that pictures show; html is a page that shows it and needs no others.\n"
+      "cldata has paths of cutters in the words of APT: CUTTER, FEDRAT, RAPID, GOTO with the middle of the cutter's "
+      "end\n"
+      "and its axis; chords keep the sag of --sag, else a thousandth of the path's size.");
   auto options = std::make_shared<Options>();
   options->scene.add_to(*sub);
   sub->add_option("names", options->names, "geometry to write, in place of the objects")->type_name("NAME");
   sub->add_option("--format", options->format, "what to write; else the output's extension decides")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"obj", "ply", "stl", "gltf", "glb", "html", "json", "step", "pov"}));
+      ->check(CLI::IsMember({"obj", "ply", "stl", "gltf", "glb", "html", "json", "step", "pov", "cldata"}));
   sub->add_option("-o,--output", options->output, "file to write; without it SCENE.FORMAT here")->type_name("FILE");
   sub->add_option("--sag", options->sag, "largest distance of a triangle from its surface, of a chord from its curve")
       ->type_name("LENGTH")

@@ -19,4 +19,7 @@ struct ExportOptions {
 // The scene as glTF: `format` is gltf, glb, or html, a page with the model and its viewer.
 int export_gltf(const ExportOptions& options, const std::string& format, const std::string& output);
 
+// Paths of cutters as cutter location data, in the words of APT.
+int export_cldata(const ExportOptions& options, const std::string& output);
+
 }  // namespace lekalo::command

@@ -48,8 +48,34 @@ PathPoint point_of(const std::string& word) {
   return word == "contact" ? PathPoint::contact : word == "center" ? PathPoint::center : PathPoint::reference;
 }
 
+// The line in the parameter plane.
+struct ImageOfLine {
+  LineOfSurface line;
+
+  template <class T>
+  Triple<T> operator()(const T& t) const {
+    const auto place = line(t);
+    return {place.u, place.v, T(0)};
+  }
+};
+
+CoverageBand band_of(const SurfaceContact& contact, const Curve& line, double height) {
+  CurvePtr image = contact.line.image;
+  if (!image) {
+    CurveProperties properties;
+    properties.domain = line.domain();
+    properties.breaks = properties_of(line).breaks;
+    image = std::make_shared<ComposedCurve<ImageOfLine>>(ImageOfLine{contact.line}, properties);
+  }
+  return {image, [contact, height](double t) {
+            const ContactBend bend = contact_bend(contact, t);
+            return bend.width(height) * glm::length(bend.across);
+          }};
+}
+
 ToolPathFacts facts_of(const SurfaceContact& contact, const Interval& range, double height) {
   ToolPathFacts facts;
+  facts.part = contact.line.of;
   const StripReport report = strip_report(contact, range, height);
   facts.bend = {report.least_difference, report.u, report.v};
   if (height > 0 && std::isfinite(report.greatest_width))
@@ -64,7 +90,9 @@ ToolPath cutter_path(const Fields& f) {
   const double height = f.has("scallop") ? f.number("scallop") : 0;
   const ToolPathFacts facts = facts_of(contact, line->domain(), height);
   check_gouging(f, *facts.bend);
-  return ToolPath(contact.cutter, {move}, std::nullopt, facts);
+  ToolPath path(contact.cutter, {move}, std::nullopt, facts);
+  if (facts.strip) path.set_band(band_of(contact, *line, height));
+  return path;
 }
 
 }  // namespace
@@ -89,7 +117,7 @@ TypeDeclaration cutter_path_type() {
              "of the circle of corner centers",
              "reference")
       .optional("scallop", length().positive(), "height for which 'lekalo measure' tells the width of the strip")
-      .shows({"cutters", "contacts"})
+      .shows({"cutters", "tool_axes", "contacts", "tool_moves"})
       .built_by(cutter_path);
 }
 

@@ -90,7 +90,7 @@ TypeDeclaration flank_path_type() {
                 group({{"through", point(), "a point of it", false, "[0, 0, 0]"},
                        {"normal", direction(), "its normal", false, "z"}}),
                 "in which the middle of the end stays, in place of h")
-      .shows({"cutters", "contacts"})
+      .shows({"cutters", "tool_axes", "contacts", "tool_moves"})
       .built_by(flank_path);
 }
 

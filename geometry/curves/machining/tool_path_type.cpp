@@ -167,6 +167,7 @@ Vec3 way_of(const PathRow& row) {
 ToolPathFacts facts_of(const RowFamily& family, const std::vector<PathRow>& rows) {
   ToolPathFacts facts;
   facts.rows = static_cast<int>(rows.size());
+  facts.part = rows.front().contact.line.of;
   facts.bend = {kInfinity, 0, 0};
   double greatest = 0;
   for (size_t i = 0; i < rows.size(); ++i) {
@@ -237,7 +238,7 @@ TypeDeclaration tool_path_type() {
       .optional("feed", number().positive(), "speed of cutting moves, scene units by unit of time")
       .optional("approach_feed", number().positive(), "speed of the way down; the feed when left out")
       .optional("rapid_feed", number().positive(), "speed of moves in the air; the feed when left out")
-      .shows({"cutters", "contacts"})
+      .shows({"cutters", "tool_axes", "contacts", "tool_moves"})
       .built_by(tool_path);
 }
 

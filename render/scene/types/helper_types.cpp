@@ -227,6 +227,30 @@ TypeDeclaration colored_helper() {
   return finish(type);
 }
 
+TypeDeclaration cutters() {
+  TypeDeclaration type =
+      helper("cutters", "The cutter at places of its path: meridians and circles of its outline.", "thin");
+  with_places(type, "3");
+  type.field("meridians", integer().between(1, 64), "how many, the first through the contact", "4");
+  return finish_with_places(type);
+}
+
+TypeDeclaration tool_arrows(const char* name, const char* description, const char* by_default) {
+  TypeDeclaration type = helper(name, description, "thin");
+  with_places(type, "9");
+  type.optional("length", length().positive(), by_default).field("marker", marker(), "sign where they begin", "none");
+  return finish_with_places(type);
+}
+
+TypeDeclaration tool_moves() {
+  TypeDeclaration type = helper("tool_moves", "Some moves of the path of a cutter.", "thin");
+  type.field("kinds", words({"cut", "link", "approach", "exit", "rapid"}),
+             "which: rows and links between them on the part; down to it, up, and in the air",
+             "[approach, exit, rapid]")
+      .field("arrows", boolean(), "a head at the end of each", "false");
+  return finish(type);
+}
+
 TypeDeclaration insertion() {
   TypeDeclaration type =
       helper("insertion", "The control polygon with more knots (Golovanov 2016, 2.11).", "construction");
@@ -306,6 +330,12 @@ std::vector<TypeDeclaration> helper_types() {
       finish(hull_type),
       moved_point(),
       crossings(),
+      cutters(),
+      tool_arrows("tool_axes", "The axis of a cutter at places of its path, from the middle of its end.",
+                  "in scene units; the cutter's when left out"),
+      tool_arrows("contacts", "Where a cutter touches, with the normals there.",
+                  "of the normals, in scene units; the cutter's radius when left out"),
+      tool_moves(),
       jumps()};
   all.insert(all.begin(), others.begin(), others.end());
   return all;
