@@ -10,6 +10,7 @@
 #include "render/lines/control_mesh.h"
 #include "render/lines/curve_figures.h"
 #include "render/lines/mesh_figures.h"
+#include "render/lines/route_figures.h"
 #include "render/lines/surface_figures.h"
 #include "render/model/color_scale.h"
 
@@ -145,6 +146,11 @@ std::vector<Vec3> helper_points(const Object& object) {
       const CurveFigure figure = curve_figure(*curve, helper);
       points.insert(points.end(), figure.points.begin(), figure.points.end());
       for (const CurvePtr& line : figure.lines) add_places(*line);
+    }
+    if (curve && is_route_figure(helper.type)) {
+      const RouteFigure figure = route_figure(**curve, helper);
+      points.insert(points.end(), figure.points.begin(), figure.points.end());
+      for (const RouteFigure::Line& line : figure.lines) add_places(*line.curve);
     }
     if (const auto* mesh = std::get_if<MeshPtr>(&object.shape); mesh && is_mesh_figure(helper.type))
       for (const CurvePtr& line : mesh_figure(**mesh, helper).lines) add_places(*line);

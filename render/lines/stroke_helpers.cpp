@@ -12,6 +12,7 @@
 #include "render/lines/curve_figures.h"
 #include "render/lines/curve_helpers.h"
 #include "render/lines/mesh_figures.h"
+#include "render/lines/route_figures.h"
 #include "render/lines/stroke_collector.h"
 #include "render/lines/surface_figures.h"
 #include "render/model/color_scale.h"
@@ -58,6 +59,16 @@ void StrokeCollector::add_helper(const Helper& helper) {
     }
   } else if (is_curve_figure(helper.type) && curve && drawing_) {
     add_figure(*curve, sign, helper);
+  } else if (is_route_figure(helper.type) && curve) {
+    const RouteFigure figure = route_figure(**curve, helper);
+    for (const RouteFigure::Line& line : figure.lines) {
+      Style style = helper.style;
+      if (line.arrow && drawing_) style.arrows = "end";
+      stroke(line.curve, style, helper.hidden);
+    }
+    if (drawing_)
+      for (const RouteFigure::Text& one : figure.texts) text(one.point, one.words, helper, sign != "none");
+    marks(figure.points);
   } else if (helper.type == "colored" && curve && drawing_) {
     add_colored(*curve, helper);
   } else if (helper.type == "jumps" && curve) {

@@ -12,6 +12,7 @@
 #include "geometry/queries/intersections/self_intersections.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "render/lines/mesh_figures.h"
+#include "render/lines/route_figures.h"
 #include "render/lines/stroke_collector.h"
 #include "render/lines/surface_figures.h"
 #include "render/model/look.h"
@@ -54,7 +55,7 @@ bool shows(std::span<const char* const> names, std::string_view name) {
 }
 bool is_helper_shown(const Helper& helper, const Object& object) {
   return shows(kHelpersShown, helper.type) || is_surface_figure(helper.type) || is_mesh_figure(helper.type) ||
-         (is_triangle(helper) && std::holds_alternative<CurvePtr>(object.shape));
+         is_route_figure(helper.type) || (is_triangle(helper) && std::holds_alternative<CurvePtr>(object.shape));
 }
 
 LineLook look_of_style(const Style& style, double pixels, double min_width) {

@@ -135,6 +135,7 @@ ordered_json measures(const std::string& name, const render::Entity& given) {
         out["deviation_bound"] = blend->bounds()->position;
         out["angle_bound"] = blend->bounds()->angle;
       }
+      put_plan(out, **curve);
     } else if (const auto* surface = std::get_if<geometry::SurfacePtr>(&entity)) {
       out["kind"] = "surface";
       put(out, geometry::measure(**surface));
@@ -181,8 +182,8 @@ void print_measures(const ordered_json& measured) {
     if (key == "by_lines") fmt::print("by lines           {}\n", value.get<std::string>());
     if (key == "conic") fmt::print("{:<18} {}\n", key, value.get<std::string>());
     if (value.is_string() || value.is_boolean() || key.ends_with("_error")) continue;
-    if (key == "parameters") {
-      print_parameters(value);
+    if (key == "parameters" || value.is_object()) {
+      value.is_object() ? print_plan(value) : print_parameters(value);
       continue;
     }
     const bool is_matrix = value.is_array() && value[0].is_array();

@@ -17,6 +17,9 @@ namespace lekalo::command {
 
 // Length, area, volume and moments of an entity with their errors. Throws UsageError for points.
 ordered_json measures(const std::string& name, const render::Entity& entity);
+// Adds what is known of a path that was planned (route, pocket, turning, drilling); nothing for other curves.
+void put_plan(ordered_json& out, const geometry::Curve& curve);
+void print_plan(const ordered_json& plan);
 void print_measures(const ordered_json& measured);
 
 // Faces, edges and vertices of a body with their names; counts of a mesh. Throws UsageError for anything else.

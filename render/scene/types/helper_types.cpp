@@ -307,6 +307,8 @@ TypeDeclaration jumps() {
 std::vector<TypeDeclaration> helper_types() {
   TypeDeclaration hull_type = hulls();
   std::vector<TypeDeclaration> all = surface_helper_types();
+  const std::vector<TypeDeclaration> routes = route_helper_types();
+  all.insert(all.end(), routes.begin(), routes.end());
   const std::vector<TypeDeclaration> others = {
       control_polygon(),
       control_net(),

@@ -20,5 +20,7 @@ geometry::FieldType marker();
 
 // Those of surfaces, and of triangulations.
 std::vector<geometry::TypeDeclaration> surface_helper_types();
+// Those of planned paths: graphs, pockets.
+std::vector<geometry::TypeDeclaration> route_helper_types();
 
 }  // namespace lekalo::render
