@@ -74,7 +74,8 @@ TEST(TurningPass, AnEllipticEdgeTouchesTheProfile) {
 TEST(TurningPass, PassesTogetherRemoveTheBlank) {
   double sum = 0;
   for (int k = 1; k <= 4; ++k) {
-    const auto plan = plan_of<TurningPlan>(*built(fields(4, k))).plan;
+    const CurvePtr pass = built(fields(4, k));
+    const TurningPlan* plan = plan_of<TurningPlan>(*pass).plan;
     sum += removed_volume(*plan->before, *plan->profile).value;
   }
   // pi int_0^4 25 - (x - 2)^2 dx - pi int_0^1 y^2 x' dt, by Simpson's rule, which is exact enough in 4000 parts.
