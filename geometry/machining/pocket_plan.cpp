@@ -69,7 +69,7 @@ std::vector<Vec2> zigzag(const Trapezoid& one, double step, bool from_left, cons
 }
 
 // Moves through trapezoids, which are convex: between points of each it stays inside, and it goes from one to the next
-// by the middle of what they have in common.
+// where what they have in common is nearest upright.
 class Path {
  public:
   Path(const PocketPlan& plan, double step) : plan_(plan), step_(step), cleared_(plan.split.trapezoids.size(), false) {}
@@ -85,7 +85,7 @@ class Path {
   }
   void go(const WalkStep& step) {
     const TrapezoidContact& contact = plan_.split.contacts[static_cast<size_t>(step.edge)];
-    const Vec2 gate(contact.x, contact.y.middle());
+    const Vec2 gate(contact.x, contact.y.clamp(points.back().y));
     move(gate);
     if (!cleared_[static_cast<size_t>(step.to)]) clear(step.to, step.to == contact.b, gate);
   }

@@ -43,6 +43,15 @@ Polygon2 polygon_of(const Curve& curve, const std::string& field, double toleran
   return polygon;
 }
 
+bool contains(const Polygon2& polygon, const Vec2& p) {
+  bool inside = false;
+  for (size_t k = 0; k < polygon.size(); ++k) {
+    const Vec2 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    if ((a.y <= p.y) != (b.y <= p.y) && p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y))) inside = !inside;
+  }
+  return inside;
+}
+
 void turn(Polygon2& polygon, bool counterclockwise) {
   if ((signed_area(polygon) > 0) != counterclockwise) std::reverse(polygon.begin(), polygon.end());
 }
@@ -230,15 +239,28 @@ double area(const PocketRegion& region) {
   return sum;
 }
 
-PocketRegion inset_region(const Curve& outer, const std::vector<CurvePtr>& islands, double nearest, double farthest) {
-  const Box3 box = bounds(outer);
-  const double band = farthest - nearest, size = box.diameter(), height = outer.point(outer.domain().lo).z;
-  std::vector<Polygon2> contours{polygon_of(outer, "outer", 0.25 * band, height)};
+namespace {
+
+std::vector<Polygon2> contours_of(const Curve& outer, const std::vector<CurvePtr>& islands, double tolerance) {
+  const double height = outer.point(outer.domain().lo).z;
+  std::vector<Polygon2> contours{polygon_of(outer, "outer", tolerance, height)};
   turn(contours[0], true);
   for (const CurvePtr& island : islands) {
-    contours.push_back(polygon_of(*island, "islands", 0.25 * band, height));
+    contours.push_back(polygon_of(*island, "islands", tolerance, height));
+    if (!contains(contours[0], contours.back()[0]))
+      throw FieldError("islands",
+                       fmt::format("island {} does not lie inside of the outer contour", contours.size() - 2),
+                       "islands are left standing in the pocket");
     turn(contours.back(), false);
   }
+  return contours;
+}
+
+}  // namespace
+
+PocketRegion inset_region(const Curve& outer, const std::vector<CurvePtr>& islands, double nearest, double farthest) {
+  const double band = farthest - nearest, size = bounds(outer).diameter();
+  std::vector<Polygon2> contours = contours_of(outer, islands, 0.25 * band);
   for (Polygon2& contour : contours) contour = moved_left(contour, 0.5 * (nearest + farthest), 0.25 * band);
   PocketRegion region = positive_region(contours, size);
   // Slivers that rounding leaves where loops touch.

@@ -144,7 +144,8 @@ TypeDeclaration route_graph_type() {
         try {
           plan.postman = postman_route(plan.graph, plan.start);
         } catch (const std::invalid_argument& error) {
-          throw FieldError(f.has("edges") ? "edges" : "matrix", error.what(), "join all vertices by edges");
+          throw FieldError(f.has("edges") ? "edges" : "matrix", error.what(),
+                           "all vertices are joined by edges, and few have an odd number of them");
         }
         plan.reduced = reduced(plan.graph);
         plan.walk = walk_of(plan, f);

@@ -15,6 +15,8 @@ double matching_count(int vertices);
 
 // The largest number of vertices of minimum_matching().
 inline constexpr int kMaxExactMatching = 20;
+// With more vertices exchanges take too long: they look at all triples of pairs.
+inline constexpr int kMaxExchangeMatching = 300;
 
 // The pairs with the least sum of distances, by dynamic programming over sets of vertices (2^n n steps). `distances`
 // is symmetrical. Throws std::invalid_argument for an odd number, or more than kMaxExactMatching.

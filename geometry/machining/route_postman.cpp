@@ -9,8 +9,9 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Orders of the edges at vertices in which closed ways are tried.
-constexpr int kOrders = 48;
+// Orders of the edges at vertices in which closed ways are tried, and how many ways in all where there are many starts.
+constexpr int kOrders = 48, kLeastOrders = 2;
+constexpr int kTriedWays = 2000;
 // Weights within this part of each other are the same.
 constexpr double kSameWeight = 1e-12;
 
@@ -57,7 +58,8 @@ Grid<double> distances_between(const RouteGraph& graph, const std::vector<int>& 
   Grid<double> result{n, n, std::vector<double>(vertices.size() * vertices.size(), 0.0)};
   for (int i = 0; i < n; ++i) {
     const ShortestPaths paths = shortest_paths(graph, vertices[static_cast<size_t>(i)]);
-    for (int j = 0; j < n; ++j) result.at(i, j) = paths.distance[static_cast<size_t>(vertices[static_cast<size_t>(j)])];
+    for (int j = i + 1; j < n; ++j)
+      result.at(i, j) = result.at(j, i) = paths.distance[static_cast<size_t>(vertices[static_cast<size_t>(j)])];
   }
   return result;
 }
@@ -144,8 +146,11 @@ PostmanRoute postman_route(const RouteGraph& graph, int start) {
   const std::vector<int> degrees = graph.degrees();
   for (size_t v = 0; v < graph.size(); ++v)
     if (degrees[v] % 2 != 0) route.odd.push_back(static_cast<int>(v));
-  route.distances = distances_between(graph, route.odd);
   route.exact = static_cast<int>(route.odd.size()) <= kMaxExactMatching;
+  if (static_cast<int>(route.odd.size()) > kMaxExchangeMatching)
+    throw std::invalid_argument(std::to_string(route.odd.size()) + " vertices have an odd number of edges, more than " +
+                                std::to_string(kMaxExchangeMatching) + " take too long");
+  route.distances = distances_between(graph, route.odd);
   const Pairs pairs = route.exact ? minimum_matching(route.distances) : matching_by_exchange(route.distances);
   route.matching_weight = weight(pairs, route.distances);
   // An edge that two of the ways share would be walked three times: walked once, the parity is the same.
@@ -169,8 +174,10 @@ Walk shortened_walk(const RouteGraph& graph, const PostmanRoute& route, int star
   const EdgesAt at = multi.edges_at();
   Walk best;
   double least = std::numeric_limits<double>::infinity();
-  for (const int from : starts_of(graph, start))
-    for (int variant = 0; variant < kOrders; ++variant) {
+  const std::vector<int> starts = starts_of(graph, start);
+  const int orders = std::clamp(kTriedWays / static_cast<int>(starts.size()), kLeastOrders, kOrders);
+  for (const int from : starts)
+    for (int variant = 0; variant < orders; ++variant) {
       EdgesAt order = at;
       vary(order, variant);
       Walk walk = shortened(euler_cycle(multi, order, from), graph.size(), from);

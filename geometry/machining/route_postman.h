@@ -30,7 +30,8 @@ struct PostmanRoute {
   double weight = 0;           // of the cycle
 };
 
-// Throws std::invalid_argument where the graph has no edges or falls apart.
+// Throws std::invalid_argument where the graph has no edges or falls apart, or has more odd vertices than
+// kMaxExchangeMatching.
 PostmanRoute postman_route(const RouteGraph& graph, int start = 0);
 
 // Of closed ways through the same edges, what visits every vertex and no more: it begins at a vertex of one edge, ends

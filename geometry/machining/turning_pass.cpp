@@ -1,6 +1,6 @@
 // Profiles of passes (Zavyalov et al. 1985, V.3):
 //
-//   r_k(x) = (1 - k/n) r_0(x) + k/n r(x),   k = 1 ... n
+//   r_k(x) = (1 - q) r_0(x) + q r(x),   q = k/n, or given pass by pass,   k = 1 ... n
 //
 // r_0 the blank, r the part, both graphs over x. The parameter is that of the part's profile. The blank is met where
 // its x is that of the part: x_0(s) = x(t), whose Taylor polynomial s(t) follows coefficient by coefficient, because
@@ -141,10 +141,30 @@ double largest_depth(const Curve& part, const GraphOverX& blank) {
   return depth;
 }
 
+// Of the pass: which part of the way from the blank to the part is then behind.
+double share_of(const Fields& f, int pass, int passes) {
+  if (pass == 0 || !f.has("shares")) return static_cast<double>(pass) / passes;
+  return f.numbers("shares")[static_cast<size_t>(pass - 1)];
+}
+
+int count_of_shares(const std::vector<double>& shares) {
+  double before = 0;
+  for (const double share : shares) {
+    if (!(share > before)) throw FieldError("shares", "each pass goes farther than the one before", "[0.5, 0.9, 1]");
+    before = share;
+  }
+  if (before != 1) throw FieldError("shares", fmt::format("the last pass ends at {:g}", before), "at 1: the part");
+  return static_cast<int>(shares.size());
+}
+
 int passes_of(const Fields& f, double depth) {
-  if (f.has("passes") == f.has("depth"))
-    throw FieldError(f.has("depth") ? "depth" : "passes", "the passes are given by their number or by the depth of cut",
-                     "give one of both");
+  const int given = (f.has("passes") ? 1 : 0) + (f.has("depth") ? 1 : 0) + (f.has("shares") ? 1 : 0);
+  if (given != 1)
+    throw FieldError(f.has("depth")    ? "depth"
+                     : f.has("shares") ? "shares"
+                                       : "passes",
+                     "the passes are given by their number, the depth of cut, or their shares", "give one of these");
+  if (f.has("shares")) return count_of_shares(f.numbers("shares"));
   if (f.has("passes")) return f.integer("passes");
   const double count = std::ceil(depth / f.number("depth") - 1e-9);
   if (count > 1000) throw FieldError("depth", fmt::format("{:g} passes are needed", count), "take a larger depth");
@@ -186,7 +206,7 @@ TurningPlan plan_of_pass(const Fields& f, const CurvePtr& part) {
   plan.pass = f.has("pass") ? f.integer("pass") : plan.passes;
   if (plan.pass > plan.passes)
     throw FieldError("pass", fmt::format("there is no pass {}", plan.pass), fmt::format("the last is {}", plan.passes));
-  const auto after = [&](int k) { return between(part, blank, *over, static_cast<double>(k) / plan.passes); };
+  const auto after = [&](int k) { return between(part, blank, *over, share_of(f, k, plan.passes)); };
   plan.before = after(std::max(plan.pass - 1, 0));
   plan.profile = after(plan.pass);
   return plan;
@@ -215,6 +235,8 @@ TypeDeclaration turning_pass_type() {
       .field("blank", reference({Category::curve}), "profile of the blank, nowhere below it")
       .optional("passes", integer().between(1, 1000), "how many")
       .optional("depth", length().positive(), "or the largest radial depth of cut of one")
+      .optional("shares", numbers().count(1, 1000).above(0).at_most(1),
+                "or, of each pass, the part of the way from the blank to the part that is then behind, the last 1")
       .optional("pass", integer().at_least(0), "which, from 1; 0 is the blank; the last without it")
       .field("feed_direction", choice({"right", "left"}), "along x or against it", "right")
       .optional("tool_angle", angle().between(0, kPi / 2),
