@@ -80,14 +80,14 @@
   X(implicit_curve_type)          \
   X(blend_curve_type)             \
   X(frame_section_type)           \
-  X(cutter_path_type) \
-  X(flank_path_type) \
-  X(tool_path_type) \
-  X(tool_program_type) \
-  X(coverage_band_type) \
-  X(route_graph_type) \
-  X(pocket_type) \
-  X(turning_pass_type) \
+  X(cutter_path_type)             \
+  X(flank_path_type)              \
+  X(tool_path_type)               \
+  X(tool_program_type)            \
+  X(coverage_band_type)           \
+  X(route_graph_type)             \
+  X(pocket_type)                  \
+  X(turning_pass_type)            \
   X(drilling_order_type)
 
 namespace lekalo::geometry {
