@@ -23,6 +23,7 @@
   X(sweep_body_type)           \
   X(pipe_type)                 \
   X(loft_body_type)            \
+  X(blade_body_type)           \
   X(thickened_sheet_type)      \
   X(sewn_shell_type)           \
   X(exploded_body_type)        \

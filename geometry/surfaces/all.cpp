@@ -58,7 +58,10 @@
   X(developable_surface_type)    \
   X(development_type)            \
   X(thread_surface_type)         \
-  X(weld_groove_type)
+  X(weld_groove_type)            \
+  X(blade_surface_type)          \
+  X(mid_surface_type)            \
+  X(fairing_surface_type)
 
 namespace lekalo::geometry {
 

@@ -53,6 +53,13 @@ SURFACES = {
     "guided_loft": "along: { type: bezier_curve, points: [[0, 0, -1], [0.3, 0, 1], [0, 0, 2]] }, of: [{ type: circle, radius: 1, "
                    "center: [0, 0, -1] }, { type: circle, radius: 1.4, center: [0, 0, 2] }], at_v: [0, 1]",
     "hermite_surface": f"points: [{NET}]",
+    "blade_surface": "sections: [{ points: [[2, 0, -1], [1, -0.2, -1], [0.2, -0.4, -1], [-0.6, 0.1, -1], [0.3, 0.6, -1], [1, 0.5, "
+                     "-1], [2, 0, -1]] }, { points: [[2, 0, 2], [1.2, 0, 2], [0.5, 0, 2], [0.1, 0.4, 2], [0.6, 0.9, 2], [1.2, 0.7, "
+                     "2], [2, 0, 2]] }]",
+    "mid_surface": "of: { type: torus_surface, major_radius: 2, minor_radius: 0.5 }, to: { type: torus_surface, major_radius: 1.5, "
+                   "minor_radius: 0.9 }",
+    "fairing_surface": "start: [-1, 0, 0], end: [2, 0, 1], start_normal: x, closed: true, points: [{ repeat: { i: 0..7 }, row: [{ "
+                       "repeat: { j: 0..2 }, point: [j, '(1 + 0.3*j)*cos((45*i) deg)', '(1 + 0.3*j)*sin((45*i) deg)'] }] }]",
     "spline_surface": f"points: [{NET}], degree: 2",
     "grid_interpolant": "of: { type: sphere_surface, radius: 1.5 }, cells: { u: 6, v: 3 }, beta: circle, ends: poles",
     "composite_bezier": "degree: { u: 2, v: 1 }, joints: { u: smooth, v: as_given }, points: [[[-1, -1], [-1, 2]], [[0, -1, 2], "

@@ -68,6 +68,13 @@ std::vector<Vec3> line_along_v(const Grid<Vec3>& grid, int i) {
   return {begin, begin + grid.columns};
 }
 
+std::vector<double> mean_steps(const Grid<Vec3>& grid, bool along_u, bool closed) {
+  std::vector<std::vector<Vec3>> lines;
+  for (int k = 0; k < (along_u ? grid.columns : grid.rows); ++k)
+    lines.push_back(along_u ? line_along_u(grid, k) : line_along_v(grid, k));
+  return summed_steps(lines, closed);
+}
+
 namespace {
 
 PointGrid with_parameters(const Fields& fields, PointGrid grid) {

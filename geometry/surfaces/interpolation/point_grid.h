@@ -29,6 +29,9 @@ void declare_point_grid(TypeDeclaration& type);
 std::vector<Vec3> line_along_u(const Grid<Vec3>& grid, int j);
 std::vector<Vec3> line_along_v(const Grid<Vec3>& grid, int i);
 
+// Means over all lines along u, or along v, of the distances between neighbours, the closing one included.
+std::vector<double> mean_steps(const Grid<Vec3>& grid, bool along_u, bool closed);
+
 // A polynomial spline of the points of one line, linear in them, with the same axis for all lines.
 using LineSpline = std::function<NurbsCurve(std::span<const Vec3>)>;
 // The splines along u of all columns, then along v of their control points: a tensor product.

@@ -172,6 +172,9 @@ inline std::vector<Entry> composed_entries() {
   return {
       torus("sweep_along_a_circle",
             "{ type: sweep_surface, path: { type: circle, radius: 2 }, section: { type: circle, radius: 0.7 } }"),
+      torus("mid_surface_of_tori",
+            "{ type: mid_surface, of: { type: torus_surface, major_radius: 2, minor_radius: 0.5 }, to: { type: "
+            "torus_surface, major_radius: 2, minor_radius: 0.9 } }"),
       torus("toroid", "{ type: vintoid, preset: toroid, a: 2, b: 0.7, c: 0.7 }"),
       torus(
           "offset_of_a_formula",
