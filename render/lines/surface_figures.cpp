@@ -13,9 +13,11 @@
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/operations/surface_curve.h"
 #include "geometry/curves/splines/nurbs_curve.h"
+#include "geometry/expression/expression.h"
 #include "geometry/queries/contours/isophote.h"
 #include "geometry/queries/contours/level_lines.h"
 #include "geometry/queries/contours/parameter_lines.h"
+#include "geometry/queries/differential/tool_axis.h"
 #include "geometry/queries/differential/umbilics.h"
 #include "geometry/queries/surface_lines/surface_lines.h"
 #include "render/integrators/quantities.h"
@@ -195,6 +197,24 @@ SurfaceFigure hedgehog(const SurfacePtr& surface, const Fields& f) {
   return figure;
 }
 
+// Arrows along the axes of a tool that runs along rows of places; none where a row has no tangent.
+SurfaceFigure tool_axes(const SurfacePtr& surface, const Fields& f) {
+  const Expression& tilt = f.get<Expression>("tilt");
+  const bool along_u = f.text("rows") == "u";
+  SurfaceFigure figure;
+  for (const double u : values_along(*surface, f, IsoDirection::u))
+    for (const double v : values_along(*surface, f, IsoDirection::v)) {
+      const SurfaceJet jet = surface->evaluate(u, v, 1);
+      const Vec3 tangent = along_u ? jet.du() : jet.dv(), other = along_u ? jet.dv() : jet.du();
+      if (!(glm::length(tangent) > kFlat * glm::length(other))) continue;
+      const std::array<double, 2> place{u, v};
+      const Vec3 q = tool_axis(tangent, surface->normal(u, v), tilt.evaluate(std::span<const double>(place)));
+      figure.lines.push_back(
+          {std::make_shared<Segment>(jet.point(), jet.point() + f.number("length") * q), nullptr, true});
+    }
+  return figure;
+}
+
 SurfaceFigure umbilic_points(const SurfacePtr& surface, const Fields&) {
   SurfaceFigure figure;
   for (const Vec2& place : umbilics(*surface)) figure.points.push_back(surface->point(place.x, place.y));
@@ -322,6 +342,7 @@ const std::map<std::string, Draw, std::less<>>& figures() {
                                                                {"principal_directions", principal_directions},
                                                                {"umbilics", umbilic_points},
                                                                {"hedgehog", hedgehog},
+                                                               {"tool_axes", tool_axes},
                                                                {"principal_circles", principal_circles},
                                                                {"dupin_indicatrix", dupin_indicatrix},
                                                                {"tangent_plane", tangent_plane}};
@@ -339,7 +360,8 @@ bool lies_on_surface(const Helper& helper) {
 }
 
 bool leaves_surface(const Helper& helper) {
-  return is_surface_figure(helper.type) && (helper.values.has("u") || helper.type == "hedgehog");
+  return is_surface_figure(helper.type) &&
+         (helper.values.has("u") || helper.type == "hedgehog" || helper.type == "tool_axes");
 }
 
 void check_surface_figure(const Surface& surface) {

@@ -10,6 +10,7 @@
 #include "geometry/queries/differential/divided_difference.h"
 #include "geometry/queries/differential/fundamental_forms.h"
 #include "geometry/queries/differential/osculation.h"
+#include "geometry/queries/differential/tool_axis.h"
 #include "geometry/queries/differential/trihedron.h"
 #include "geometry/queries/differential/turning_step.h"
 #include "geometry/transformed.h"
@@ -130,6 +131,7 @@ struct Options {
   std::vector<std::string> on, along;
   double share = 0.5, turn = 0;  // turn: degrees
   std::optional<int> order;
+  std::optional<double> tilt;  // degrees
   bool placement = false, metric = false, json = false;
 };
 
@@ -206,6 +208,14 @@ ordered_json divided_differences_of(const render::Entity& entity, const Options&
   return differences_of(**curve, nodes);
 }
 
+// Of a tool that runs along the first direction.
+ordered_json tool_axis_of(const geometry::Surface& surface, const geometry::Vec2& at, const Options& options) {
+  const geometry::Vec2 way = directions_of(options).front();
+  const geometry::SurfaceJet jet = surface.evaluate(at.x, at.y, 1);
+  return finite_or_null(geometry::tool_axis(way.x * jet.du() + way.y * jet.dv(), surface.normal(at.x, at.y),
+                                            *options.tilt * geometry::kPi / 180));
+}
+
 // At the parameter of a curve, or those of a surface.
 ordered_json evaluate_at(const render::LoadedScene& scene, const render::Entity& entity, const Options& options,
                          const std::vector<double>& at) {
@@ -226,8 +236,10 @@ ordered_json evaluate_at(const render::LoadedScene& scene, const render::Entity&
   }
   note_outside("u", at[0], surface->domain().u, surface->periods().u);
   note_outside("v", at[1], surface->domain().v, surface->periods().v);
-  return evaluate_surface(*surface, {at[0], at[1]}, directions_of(options), options.turn * geometry::kPi / 180,
-                          options.metric);
+  ordered_json out = evaluate_surface(*surface, {at[0], at[1]}, directions_of(options),
+                                      options.turn * geometry::kPi / 180, options.metric);
+  if (options.tilt) out["tool_axis"] = tool_axis_of(*surface, {at[0], at[1]}, options);
+  return out;
 }
 
 // Curvilinear coordinates are three, or t of a path in them.
@@ -341,10 +353,16 @@ void add_evaluate(CLI::App& app, Action& action) {
                     ->type_name("T,T,..");
   sub->add_option("--face", options->face, "face of a body or patch of a set, as trace and measure --topology call it")
       ->type_name("NUMBER|NAME");
-  sub->add_option("--along", options->along,
-                  "of a surface its normal curvature in this direction of its parameters; of two the angle between")
-      ->type_name("DU,DV")
-      ->expected(1, 2);
+  auto* along =
+      sub->add_option("--along", options->along,
+                      "of a surface its normal curvature in this direction of its parameters; of two the angle between")
+          ->type_name("DU,DV")
+          ->expected(1, 2);
+  auto* tilt = sub->add_option("--tilt", options->tilt,
+                               "of a surface the axis of a milling tool that runs in the first of these directions, at "
+                               "this angle to the tangent plane")
+                   ->type_name("DEGREES")
+                   ->needs(along);
   auto* turn =
       sub->add_option(
              "--turn", options->turn,
@@ -366,7 +384,7 @@ void add_evaluate(CLI::App& app, Action& action) {
       ->check(CLI::Range(0.0, 1.0))
       ->needs(on);
   // What these do not tell.
-  uv->excludes(turn)->excludes(order)->excludes(metric);
+  uv->excludes(turn)->excludes(order)->excludes(metric)->excludes(tilt);
   nodes->excludes(turn)->excludes(order)->excludes(placement)->excludes(on);
   sub->add_flag("--json", options->json, "print JSON");
   sub->callback([&action, options] { action = [options] { return run(*options); }; });

@@ -111,7 +111,12 @@ NurbsSurface fairing(const Fields& f) {
     }
     for (int i = 0; i < columns.rows; ++i) columns.at(i, k) = Vec3(curve.points()[i]);
   }
-  return NurbsSurface(*axis_u, axis_v, columns.values);
+  NurbsSurface surface(*axis_u, axis_v, columns.values);
+  if (f.has(kStart.normal)) {
+    const Rectangle domain = surface.domain();
+    surface.set_reversed(glm::dot(surface.normal(domain.u.middle(), domain.v.lo), f.vec3(kStart.normal)) < 0);
+  }
+  return surface;
 }
 
 }  // namespace
@@ -127,8 +132,10 @@ TypeDeclaration fairing_surface_type() {
       .field("points", net(), "points[i][j] between the poles, i runs with u around them, j with v from pole to pole")
       .field("start", point(), "the pole in which all rows begin")
       .field("end", point(), "the pole in which all rows end")
-      .optional("start_normal", direction(), "normal of the tangent plane there; else the mean one of the rows")
-      .optional("end_normal", direction(), "the same at the end")
+      .optional(
+          "start_normal", direction(),
+          "normal of the tangent plane there, and the side to which the surface's looks; else the mean one of the rows")
+      .optional("end_normal", direction(), "normal of the tangent plane at the end")
       .field("closed", boolean(), "u closes smoothly about the poles", "false")
       .shows({"control_net", "knots"})
       .built_by(fairing);

@@ -36,9 +36,12 @@ bool contains(std::span<const Category> categories, Category category) {
 
 // The builder's own surface is not shared yet: it may still be turned.
 void reverse(std::any& value) {
-  if (auto* surface = std::any_cast<SurfacePtr>(&value)) const_cast<geometry::Surface&>(**surface).set_reversed(true);
+  const auto turn = [](const SurfacePtr& surface) {
+    const_cast<geometry::Surface&>(*surface).set_reversed(!surface->reversed());
+  };
+  if (auto* surface = std::any_cast<SurfacePtr>(&value)) turn(*surface);
   if (auto* set = std::any_cast<SurfaceSet>(&value))
-    for (SurfacePtr& surface : *set) const_cast<geometry::Surface&>(*surface).set_reversed(true);
+    for (const SurfacePtr& surface : *set) turn(surface);
 }
 
 // Whether something in the map other than its transform may depend on a counter: whether its name stands there.

@@ -105,6 +105,20 @@ TypeDeclaration hedgehog() {
   });
 }
 
+TypeDeclaration tool_axes() {
+  TypeDeclaration type = helper("tool_axes",
+                                "Axes of a milling tool along rows of a surface, across the row and tilted from the "
+                                "tangent plane (Zavyalov et al. 1985, VII.4).",
+                                "hairline");
+  type.field("rows", choice({"u", "v"}), "rows run with u or with v", "u")
+      .field("tilt", angle_formula({"u", "v"}), "angle between the axis and the tangent plane, towards the normal",
+             "90")
+      .field("at_u", counts(), "parameters u: how many, or where", "12")
+      .field("at_v", counts(), "parameters v: how many, or where", "5")
+      .field("length", length().positive(), "of an arrow, in scene units", "0.2");
+  return finish(type);
+}
+
 TypeDeclaration umbilics_helper() {
   TypeDeclaration type =
       helper("umbilics", "Single places of a surface where it curves alike in all directions.", "thin");
@@ -174,6 +188,7 @@ std::vector<TypeDeclaration> surface_helper_types() {
           dupin_indicatrix(),
           tangent_plane(),
           hedgehog(),
+          tool_axes(),
           circumcircles(),
           voronoi()};
 }

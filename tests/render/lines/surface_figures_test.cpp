@@ -223,6 +223,21 @@ TEST(SurfaceFigures, Hedgehog) {
     EXPECT_NEAR(glm::length(needle->point(1) - needle->point(0)), 1, 1e-12);
 }
 
+// Axes of the length that is asked for, across their row, at the tilt to the tangent plane of z = x^2/2.
+TEST(SurfaceFigures, ToolAxes) {
+  const std::vector<CurvePtr> arrows =
+      curves_of("trough", "tool_axes", "tilt: 30 + 0*u, length: 2, at_u: [0.4, 0.9], at_v: [-0.5, 0.3]");
+  ASSERT_EQ(arrows.size(), 4u);
+  for (const CurvePtr& arrow : arrows) {
+    const Vec3 foot = arrow->point(0), q = arrow->point(1) - foot;
+    const Vec3 row(1, 0, foot.x), normal = glm::normalize(Vec3(-foot.x, 0, 1));
+    EXPECT_NEAR(glm::length(q), 2, 1e-12);
+    EXPECT_NEAR(glm::dot(q, normal), 1, 1e-12);
+    EXPECT_NEAR(glm::dot(q, row), 0, 1e-12);
+    EXPECT_LT(q.y, 0);  // on the side of t x n
+  }
+}
+
 // All corners of the rectangle lie on circles through its middle; Voronoi's cell of that is a square set on a corner.
 TEST(MeshFigures, CirclesAndCells) {
   for (const CurvePtr& circle : curves_of("net", "circumcircles", ""))
