@@ -26,6 +26,10 @@ void print_measures(const ordered_json& measured);
 ordered_json topology(const std::string& name, const render::Entity& entity);
 void print_topology(const ordered_json& found);
 
+// The smallest box along an axis, "DX,DY,DZ", about a curve, surface or body. Throws UsageError.
+ordered_json blank_of(const std::string& name, const render::Entity& entity, const std::string& axis);
+void print_blank(const ordered_json& found);
+
 // Whether a curve or surface is regular, with proven bounds. Throws UsageError for anything else.
 ordered_json regularity(const std::string& name, const render::Entity& entity);
 void print_regularity(const ordered_json& found);

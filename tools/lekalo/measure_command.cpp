@@ -307,6 +307,12 @@ std::span<const Question> questions() {
          return {stretch_of(a.name, a.entity, a.value("--stretch"), a.other("--stretch"), a.samples(kSamples)),
                  print_stretch};
        }},
+      {"--blank", "DX,DY,DZ",
+       "the smallest box that stands along this direction and holds the curve, surface or body, and by how much it is "
+       "turned about it: the blank of a workpiece",
+       [](const Inquiry& a) -> Answer {
+         return {blank_of(a.name, a.entity, a.value("--blank")), print_blank};
+       }},
   };
   return all;
 }
