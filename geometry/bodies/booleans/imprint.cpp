@@ -27,8 +27,8 @@ namespace {
 constexpr double kSameNode = 1e-8;
 // Parts of the parameters of a face's border.
 constexpr double kOnBorder = 1e-9;
-// A share of its size that a contour is near enough to where it cannot be known better: beside a place where surfaces
-// touch.
+// A share of the domain that the image of a contour is near enough to where it cannot be known better: beside a place
+// where surfaces touch.
 constexpr double kNearSingular = 1e-12;
 
 bool boxes_meet(const Box3& a, const Box3& b, double by) {
@@ -472,7 +472,7 @@ class Imprinting {
 
   void split_contours() {
     for (const auto& [f, g, contour] : contours_) {
-      const CurvePtr curve = contour_approximation(contour.curve, kNearSingular);
+      const CurvePtr curve = contour_approximation(contour.curve);
       const NearCurve near(curve);
       // A point: the surfaces touch there.
       if (near.length() <= 8 * tolerance_) continue;

@@ -148,11 +148,6 @@ TEST(Boolean, TouchingAlongALine) {
 }
 
 // The section crosses itself where they touch; the volume beyond the plane by Simpson's rule.
-TEST(Boolean, TorusAndPlaneOfItsInnerEquator) {
-  const Body torus = torus_body(at(0, 0, 0), 2, 0.5), half = box(at(1.5, -3, -3), {6, 6, 6});
-  EXPECT_NEAR(volume(boolean(kUnite, torus, half)), 216 + 7.649430004267432, 1e-9);
-}
-
 TEST(Boolean, TouchingInAPoint) {
   const Body a = ball(at(0, 0, 0), 1), b = ball(at(2, 0, 0), 1);
   EXPECT_NEAR(volume(boolean(kUnite, a, b)), 2 * volume(a), 1e-9);
