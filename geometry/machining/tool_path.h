@@ -73,8 +73,9 @@ class ToolPath final : public Curve {
   const ToolPathFacts& facts() const { return facts_; }
   // Speed of a move, if it is known.
   std::optional<double> feed_of(const ToolMove& move) const;
-  const std::optional<CoverageBand>& band() const { return band_; }
-  void set_band(CoverageBand band) { band_ = std::move(band); }
+  // Of each row; none without a height.
+  const std::vector<CoverageBand>& bands() const { return bands_; }
+  void set_bands(std::vector<CoverageBand> bands) { bands_ = std::move(bands); }
   // The cutter at a parameter of the domain.
   CutterPose pose(double t) const;
 
@@ -94,7 +95,7 @@ class ToolPath final : public Curve {
   std::vector<ToolMove> moves_;
   std::optional<Feeds> feeds_;
   ToolPathFacts facts_;
-  std::optional<CoverageBand> band_;
+  std::vector<CoverageBand> bands_;
   CurvePtr curve_;
   std::vector<double> starts_;  // parameters at which the moves begin
 };

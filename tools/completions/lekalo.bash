@@ -20,7 +20,7 @@ _lekalo() {
     compare:--metric)
       words='flip rmse psnr ssim max' ;;
     export:--format)
-      words='obj ply stl gltf glb html json step pov' ;;
+      words='obj ply stl gltf glb html json step pov cldata' ;;
     new:--kind)
       words='picture drawing graph plate suite' ;;
     render:--isa | make:--isa | test:--isa | draw:--isa)

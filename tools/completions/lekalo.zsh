@@ -16,7 +16,7 @@ commands=(
   'measure:Length, area, volume, moments; topology; distance, intersections; comparison with a table'
   'trace:All hits of rays with the scene'\''s objects, in order'
   'draw:Draw a scene as lines (SVG, PDF, PNG, TikZ), visible and hidden ones told apart'
-  'export:Write what a scene shows as triangles (OBJ, PLY, STL, glTF) and polylines (OBJ, glTF), curves and surfaces as NURBS (JSON), boundary representations (STEP), the scene for POV-Ray, or a web page (HTML)'
+  'export:Write what a scene shows as triangles (OBJ, PLY, STL, glTF) and polylines (OBJ, glTF), curves and surfaces as NURBS (JSON), boundary representations (STEP), the scene for POV-Ray, a web page (HTML), or paths of cutters (CLDATA)'
   'types:List the types that scene files can name, or explain one, or a section'
   'schema:Print the JSON Schema of scene files or suites, for editors'
   'completions:Print completions for a shell, or the manual page'
@@ -240,7 +240,7 @@ case $command in
       '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
       '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
       '*:NAME: ' \
-      '--format[what to write; else the output'\''s extension decides]:NAME:(obj ply stl gltf glb html json step pov)' \
+      '--format[what to write; else the output'\''s extension decides]:NAME:(obj ply stl gltf glb html json step pov cldata)' \
       '-o[file to write; without it SCENE.FORMAT here]:FILE:_files' '--output[file to write; without it SCENE.FORMAT here]:FILE:_files' \
       '--sag[largest distance of a triangle from its surface, of a chord from its curve]:LENGTH: ' \
       '--tolerance[step\: largest distance of a fit, of the size of each]:NUMBER: ' \

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "geometry/machining/strip.h"
+
 namespace lekalo::geometry {
 
 namespace {
@@ -13,6 +15,8 @@ Vec3 vec(const Triple<double>& a) { return {a.x, a.y, a.z}; }
 // Of the largest order that enclosures and derivatives of the surface and the line's image leave.
 CurveProperties properties_on(const SurfaceContact& contact, const Curve& on) {
   CurveProperties properties = properties_of(on);
+  // An axis that turns by a formula need not be back after a period.
+  if (!contact.axis.angle.is_constant()) properties.period = 0;
   const Surface& surface = *contact.line.of;
   properties.max_order = std::min(kMaxSurfaceOrder, surface.max_order()) - 1;
   properties.enclosure_order = std::min(kMaxCurveEnclosureOrder, surface.enclosure_order()) - 1;
@@ -56,6 +60,13 @@ void check_gouging(const Fields& f, const ToolPathFacts::Bend& bend) {
                                "less than that of the surface",
                                bend.u, bend.v, -bend.least_difference),
                    "a smaller corner_radius or radius, the other side, or gouging: allow");
+}
+
+CoverageBand band_of(const SurfaceContact& contact, const CurvePtr& image, double height) {
+  return {image, [contact, height](double t) {
+            const ContactBend bend = contact_bend(contact, t);
+            return bend.width(height) * glm::length(bend.across);
+          }};
 }
 
 ToolMove contact_move(const SurfaceContact& contact, const Curve& on, ToolMove::Kind kind, PathPoint point) {

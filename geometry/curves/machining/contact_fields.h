@@ -18,6 +18,9 @@ void check_gouging(const Fields& fields, const ToolPathFacts::Bend& bend);
 // where the corner does not touch along it.
 ToolMove contact_move(const SurfaceContact& contact, const Curve& on, ToolMove::Kind kind, PathPoint point);
 
+// About the contact's line, whose image this is.
+CoverageBand band_of(const SurfaceContact& contact, const CurvePtr& image, double height);
+
 FieldType cutter_field();
 
 }  // namespace lekalo::geometry

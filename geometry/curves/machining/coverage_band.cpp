@@ -55,10 +55,12 @@ CurvePtr radius_of(const CoverageBand& band) {
 
 std::any coverage_band(const Fields& f) {
   const auto* path = dynamic_cast<const ToolPath*>(f.curve("of").get());
-  if (!path || !path->band())
-    throw FieldError("of", "the curve is no cutter_path that knows the width of its strip",
-                     "a cutter_path with 'scallop', not moved");
-  const CoverageBand& band = *path->band();
+  if (!path || path->bands().empty())
+    throw FieldError("of", "the curve is no path of a cutter that knows the width of its strip",
+                     "a cutter_path or tool_path with 'scallop', not moved");
+  const int rows = static_cast<int>(path->bands().size()), row = f.integer("row");
+  if (row >= rows) throw FieldError("row", fmt::format("the path has {} rows, numbered from 0", rows));
+  const CoverageBand& band = path->bands()[static_cast<size_t>(row)];
   const bool is_circle = f.text("part") == "circle";
   if (is_circle != f.has("at"))
     throw FieldError(is_circle ? "part" : "at", "a circle, and it alone, has a place", "part: circle, at: 0.5");
@@ -81,11 +83,12 @@ std::any coverage_band(const Fields& f) {
 TypeDeclaration coverage_band_type() {
   return declare(Category::curve, "coverage_band",
                  "Border of the band of a surface's parameter plane that a cutter covers along its path, with cusps of "
-                 "a given height beside it; or one of the circles between its borders. Its parameter is the path's.")
+                 "a given height beside it; or one of the circles between its borders. Its parameter is the row's.")
       .example(
           "of: { type: cutter_path, of: { type: sphere_surface, radius: 4, domain: { u: [0, 2], v: [0.3, 1.2] } }, v: "
           "0.7, cutter: { radius: 1, corner_radius: 1, length: 3 }, scallop: 0.01 }")
-      .field("of", reference({Category::curve}), "a cutter_path with 'scallop'")
+      .field("of", reference({Category::curve}), "a cutter_path or tool_path with 'scallop'")
+      .field("row", integer().at_least(0), "of a tool_path, from 0", "0")
       .field("part", choice({"left", "right", "circle"}),
              "the border to the left or the right of the path, or a circle", "left")
       .optional("at", number(), "parameter at the middle of the circle")

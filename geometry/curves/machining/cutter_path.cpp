@@ -59,18 +59,12 @@ struct ImageOfLine {
   }
 };
 
-CoverageBand band_of(const SurfaceContact& contact, const Curve& line, double height) {
-  CurvePtr image = contact.line.image;
-  if (!image) {
-    CurveProperties properties;
-    properties.domain = line.domain();
-    properties.breaks = properties_of(line).breaks;
-    image = std::make_shared<ComposedCurve<ImageOfLine>>(ImageOfLine{contact.line}, properties);
-  }
-  return {image, [contact, height](double t) {
-            const ContactBend bend = contact_bend(contact, t);
-            return bend.width(height) * glm::length(bend.across);
-          }};
+CurvePtr image_of(const SurfaceContact& contact, const Curve& line) {
+  if (contact.line.image) return contact.line.image;
+  CurveProperties properties;
+  properties.domain = line.domain();
+  properties.breaks = properties_of(line).breaks;
+  return std::make_shared<ComposedCurve<ImageOfLine>>(ImageOfLine{contact.line}, properties);
 }
 
 ToolPathFacts facts_of(const SurfaceContact& contact, const Interval& range, double height) {
@@ -91,7 +85,7 @@ ToolPath cutter_path(const Fields& f) {
   const ToolPathFacts facts = facts_of(contact, line->domain(), height);
   check_gouging(f, *facts.bend);
   ToolPath path(contact.cutter, {move}, std::nullopt, facts);
-  if (facts.strip) path.set_band(band_of(contact, *line, height));
+  if (facts.strip) path.set_bands({band_of(contact, image_of(contact, *line), height)});
   return path;
 }
 

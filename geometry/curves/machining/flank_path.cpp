@@ -42,6 +42,7 @@ FlankContact read_flank(const Fields& f) {
 
 CurveProperties properties_along(const FlankContact& contact) {
   CurveProperties properties = properties_of(*contact.of, 1);
+  if (!contact.height.is_constant() || contact.directions) properties.period = 0;
   if (contact.directions) {
     const Interval own = contact.directions->domain(), range = contact.of->domain();
     if (std::abs(own.lo - range.lo) + std::abs(own.hi - range.hi) > 1e-9 * range.width())

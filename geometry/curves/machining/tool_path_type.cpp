@@ -182,6 +182,12 @@ ToolPathFacts facts_of(const RowFamily& family, const std::vector<PathRow>& rows
   return facts;
 }
 
+std::vector<CoverageBand> bands_of(const std::vector<PathRow>& rows, double height) {
+  std::vector<CoverageBand> bands;
+  for (const PathRow& row : rows) bands.push_back(band_of(row.contact, row.contact.line.image, height));
+  return bands;
+}
+
 ToolPath tool_path(const Fields& f) {
   if (!f.surface("of")->bounded()) throw FieldError("of", "the surface is unbounded", "give it a domain");
   const SurfaceContact contact = read_contact(f);
@@ -205,7 +211,9 @@ ToolPath tool_path(const Fields& f) {
   if (path.rows().empty()) throw FieldError("planes", "no plane cuts the surface", "another spacing or count");
   const ToolPathFacts facts = facts_of(family, path.rows());
   check_gouging(f, *facts.bend);
-  return ToolPath(contact.cutter, path.finish(), read_feeds(f), facts);
+  ToolPath result(contact.cutter, path.finish(), read_feeds(f), facts);
+  if (f.has("scallop")) result.set_bands(bands_of(path.rows(), f.number("scallop")));
+  return result;
 }
 
 }  // namespace
