@@ -7,8 +7,8 @@
 
 namespace lekalo::geometry {
 
-// q = <t x n> cos(tilt) + n sin(tilt): t the tangent of the row, n the unit normal across it, tilt the angle between the
-// axis and the tangent plane, in radians. Of length 1.
+// q = <t x n> cos(tilt) + n sin(tilt): t the tangent of the row, n the unit normal across it, tilt the angle between
+// the axis and the tangent plane, in radians. Of length 1.
 inline Vec3 tool_axis(const Vec3& along_row, const Vec3& normal, double tilt) {
   return std::cos(tilt) * glm::normalize(glm::cross(along_row, normal)) + std::sin(tilt) * normal;
 }
