@@ -138,6 +138,7 @@ case $command in
       '--divided-difference[of a curve its divided differences over these nodes instead]:T,T,..: ' \
       '--face[face of a body or patch of a set, as trace and measure --topology call it]:NUMBER|NAME: ' \
       '*--along[of a surface its normal curvature in this direction of its parameters; of two the angle between]:DU,DV: ' \
+      '--tilt[of a surface the axis of a milling tool that runs in the first of these directions, at this angle to the tangent plane]:DEGREES: ' \
       '--turn[the step of the parameter over which the tangent, or along u and v the normal, turns by this angle]:DEGREES: ' \
       '--metric[of a surface also Christoffel'\''s symbols and the curvature tensors of its metric]' \
       '--order[derivatives of a curve up to this order]:INT: ' \
@@ -203,6 +204,7 @@ case $command in
       '--chord[of --rim, two parameters\: whether the straight line between the points is one line on the sheet]:T,T: ' \
       '--secant[the same of a curve between these points, as that of the section by a cylinder]:NAME: ' \
       '--stretch[by how much the surface stretches when it is laid on another one of the same parameters, as a development on its surface]:NAME: ' \
+      '--blank[the smallest box that stands along this direction and holds the curve, surface or body, and by how much it is turned about it\: the blank of a workpiece]:DX,DY,DZ: ' \
       '--tolerance[largest difference that passes; of --intersect and --self-intersection the part of the size below which points are one \[1e-09\]; of --continuity the relative jump that passes \[1e-06\]]:X: ' \
       '--samples[of --against and --stretch, places in each direction \[65\]; of curves that surfaces make, points along each branch]:INT: ' \
       '--order[compare derivatives up to this order \[2\]]:INT: ' \
