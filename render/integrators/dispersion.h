@@ -1,26 +1,15 @@
 // One wavelength for a path that glass splits by colour.
 //
 // A path in RGB carries all colours at once until it meets a substance whose index depends on the wavelength. There it
-// takes one wavelength, by chance, and from there on stands for this one alone: its light counts with the share w of
-// the wavelength in red, green and blue,
-//
-//   w_c(l) = m_c(l) / p(l),  m the CIE 1931 functions in linear Rec.709, each scaled to an integral of 1,
-//
-// p the density of the choice, as the sum of the CIE functions. The mean of w is white. Spectral colours are outside of
-// Rec.709: some of w is negative.
+// takes one wavelength, by chance, and from there on stands for this one alone: its light counts with the share of the
+// wavelength in red, green and blue (spectra/hero_wavelengths.h). A path that carries four wavelengths keeps the first
+// of them there.
 #pragma once
 
 #include "render/material.h"
+#include "render/spectra/hero_wavelengths.h"
 
 namespace lekalo::render {
-
-struct WavelengthSample {
-  float nanometres;
-  Spectrum share;  // w
-};
-
-// `random` in [0, 1).
-WavelengthSample sample_wavelength(double random);
 
 // True if the substance behind the surface bends colours differently.
 bool disperses(const Material& material);

@@ -21,7 +21,8 @@ class PathIntegrator final : public Integrator {
   IntegratorPtr prepared(const World& world) const override {
     if (options_.photons == 0) return nullptr;
     return std::make_shared<PathIntegrator>(
-        options_, trace_caustics(world, {options_.photons, options_.max_depth, options_.dispersion}));
+        options_,
+        trace_caustics(world, {options_.photons, options_.max_depth, options_.dispersion || options_.spectral}));
   }
   RaySample trace(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const override {
     return trace_path(world, ray, first, random, options_, caustics_.get());
@@ -87,6 +88,7 @@ TypeDeclaration path_integrator_type() {
              "true: what meets `glass` of a dielectric goes on in one wavelength, whose index counts; false: light of "
              "all colours is bent as yellow light is, which takes fewer samples",
              "false")
+      .field("spectral", boolean(), kSpectralText, "false")
       .field("background_light", boolean(), "true: the background lights the scene from everywhere", "false")
       .built_by([](const Fields& f) {
         PathOptions options;
@@ -94,6 +96,7 @@ TypeDeclaration path_integrator_type() {
         options.clamp = f.number("clamp");
         options.photons = static_cast<int>(f.integer("photons"));
         options.dispersion = f.boolean("dispersion");
+        options.spectral = f.boolean("spectral");
         options.background_shines = f.boolean("background_light");
         return make_path_integrator(options);
       });

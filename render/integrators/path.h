@@ -8,6 +8,12 @@
 
 namespace lekalo::render {
 
+// Of the field `spectral`.
+inline constexpr const char* kSpectralText =
+    "true: light of wavelengths in place of red, green and blue: measured metals, films, glass and the spectra of "
+    "lamps "
+    "count as they are, colours as smooth spectra of that look under white light D65; `dispersion` is part of it";
+
 IntegratorPtr make_path_integrator(const PathOptions& options = {});
 
 // True if some of the model's light is of the kind that paths leave out: from a point or in parallel, where there are

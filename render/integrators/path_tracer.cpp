@@ -10,8 +10,11 @@
 #include "render/integrators/path_limits.h"
 #include "render/integrators/phase_function.h"
 #include "render/integrators/phong_model.h"
+#include "render/lights/lights.h"
 #include "render/lobes/bsdf.h"
 #include "render/materials/textured_color.h"
+#include "render/spectra/hero_wavelengths.h"
+#include "render/spectra/upsampling.h"
 
 namespace lekalo::render {
 
@@ -53,22 +56,23 @@ Cone cone_of(const World::Glow& glow, const Vec3& point) {
 
 // Share of light that arrives along a shadow ray: nothing through what refracts, straight through the rest of what is
 // clear, by Bouguer's law in substances.
-Spectrum unobstructed(const World& world, const Ray& shadow_ray, const Media& around, RaySample& sample) {
+Spectrum unobstructed(const World& world, const Ray& shadow_ray, const Media& around, const Wavelengths& colors,
+                      RaySample& sample) {
   ++sample.shadow_rays;
-  if (!world.has_transmitting_materials()) return world.occluded(shadow_ray) ? Spectrum() : kWhite;
+  if (!world.has_transmitting_materials()) return world.occluded(shadow_ray) ? Spectrum() : whole(colors);
   Ray ray = shadow_ray;
   Media media = around;
-  Spectrum share = kWhite;
+  Spectrum share = whole(colors);
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     Hit hit;
     if (!world.nearest(ray, hit)) return share * transmittance(media.current().extinction(), ray.t_max);
-    const Boundary met(world, ray, hit, kYellow, media);
+    const Boundary met(world, ray, hit, is_spectral(colors) ? colors : kYellow, media);
     if (!met.material->transmits()) return {};
     share *= transmittance(media.current().extinction(), hit.t);
     if (met.changes_filling) {
       const Sides sides{media.current().index, met.behind.current().index};
       const double cosine = std::fabs(glm::dot(ray.direction, met.shading_normal(ray.direction)));
-      share *= straight_share(met.material->scattering(met.point, kPrimaries), cosine, sides);
+      share *= straight_share(met.material->scattering(met.point, colors), cosine, sides);
     }
     if (share.is_zero()) return {};
     media = met.behind;
@@ -85,10 +89,11 @@ class PathTracer {
   PathTracer(const World& world, SampleStream& random, const PathOptions& options, const Caustics* caustics,
              RaySample& sample, LightParts* parts)
       : world_(world), random_(random), options_(options), caustics_(caustics), sample_(sample), parts_(parts) {
+    if (options.spectral) take_four_wavelengths();
     for (const LightPtr& lamp : world.lamps()) has_backdrop_ = has_backdrop_ || lamp->is_backdrop();
   }
 
-  void trace(Ray ray, Hit hit, Media media);
+  void trace(Ray ray, Hit hit);
 
  private:
   // Where the ray was drawn: what lamps would have been asked there.
@@ -104,8 +109,8 @@ class PathTracer {
 
   // Light at the end of the path; `straight`: from a lamp or glowing thing to the first surface.
   void add(const Spectrum& light, int group = 0, bool straight = false);
-  float clamping(const Spectrum& arriving) const;
-  void tell_parts(const Spectrum& arriving, int group, bool straight);
+  float clamping(const Spectrum& seen) const;
+  void tell_parts(const Spectrum& light, int group, bool straight);
   void add_surroundings();
   // To be said at the first surface before the light of a direction is added.
   void note_first(const Boundary& seen, const Bsdf& bsdf, const Vec3& in);
@@ -117,6 +122,9 @@ class PathTracer {
   void add_caustic(const Boundary& seen, const Bsdf& bsdf);
   void add_caught_shadow(const Boundary& seen, const Spectrum& strength, const Media& media);
   void record(const Boundary& seen);
+  // Linear Rec.709 of light in the lanes.
+  Spectrum color(const Spectrum& light) const { return options_.spectral ? hero_.color(light) : light; }
+  void take_four_wavelengths();
   void take_one_wavelength();
   bool is_scattered(Ray& ray, double end, const Medium& medium, const Media& media);
   void add_lamp_in_medium(const Vec3& place, const Vec3& along, const Medium& medium, const Media& media);
@@ -133,8 +141,11 @@ class PathTracer {
   bool has_backdrop_ = false;
   Origin origin_;
   std::vector<double> choices_;        // of lamps at the present place, and of what glows
-  Spectrum share_ = kWhite;            // of the light at the end of the path that reaches the eye
+  HeroWavelengths hero_;               // of a spectral path
+  Wavelengths colors_ = kPrimaries;    // of the lanes
   Wavelengths wavelengths_ = kYellow;  // of refraction
+  LinearUpsampling of_photons_;        // into the lanes
+  Spectrum share_ = kWhite;            // of the light at the end of the path that reaches the eye
   bool one_wavelength_ = false;
   bool shown_ = true;  // the path is an image in mirrors and smooth boundaries
   int bounces_ = 0, scatterings_ = 0;
@@ -142,19 +153,21 @@ class PathTracer {
 };
 
 void PathTracer::add(const Spectrum& light, int group, bool straight) {
-  Spectrum arriving = share_ * light;
-  if (straight) sample_.direct += arriving;
-  arriving *= clamping(arriving);
-  sample_.radiance += arriving;
-  if (parts_) tell_parts(arriving, group, straight);
+  const Spectrum arriving = share_ * light, seen = color(arriving);
+  if (straight) sample_.direct += seen;
+  const float clamped = clamping(seen);
+  sample_.radiance += clamped * seen;
+  if (parts_) tell_parts(clamped * arriving, group, straight);
 }
 
-float PathTracer::clamping(const Spectrum& arriving) const {
-  const bool bright = options_.clamp > 0 && bounces_ > 1 && arriving.largest() > options_.clamp;
-  return bright ? static_cast<float>(options_.clamp / arriving.largest()) : 1;
+float PathTracer::clamping(const Spectrum& seen) const {
+  const bool bright = options_.clamp > 0 && bounces_ > 1 && seen.largest() > options_.clamp;
+  return bright ? static_cast<float>(options_.clamp / seen.largest()) : 1;
 }
 
-void PathTracer::tell_parts(const Spectrum& arriving, int group, bool straight) {
+// `light`: in the lanes.
+void PathTracer::tell_parts(const Spectrum& light, int group, bool straight) {
+  const Spectrum arriving = color(light);
   parts_->groups[static_cast<size_t>(group)] += arriving;
   if (bounces_ == 0) {
     parts_->emission += arriving;
@@ -165,7 +178,7 @@ void PathTracer::tell_parts(const Spectrum& arriving, int group, bool straight) 
     parts_->transmission += arriving;
     return;
   }
-  const Spectrum matt = first_matt_ * arriving;
+  const Spectrum matt = color(first_matt_ * light);
   parts_->diffuse += matt;
   parts_->specular += arriving - matt;
 }
@@ -177,17 +190,19 @@ void PathTracer::note_first(const Boundary& seen, const Bsdf& bsdf, const Vec3& 
 }
 
 void PathTracer::add_surroundings() {
-  const Spectrum& background = world_.model().background;
+  const Spectrum background = upsampled_light(world_.model().background, colors_);
   if (shown_) {
     if (!has_backdrop_) add(background);  // else a lamp has brought it
     return;
   }
   if (!parts_) {
-    add(options_.background_shines ? world_.ambient() + background : world_.ambient());
+    const Spectrum ambient = upsampled_light(world_.ambient(), colors_);
+    add(options_.background_shines ? ambient + background : ambient);
     return;
   }
   const std::vector<Spectrum>& ambient = world_.ambient_by_group();
-  for (size_t group = 0; group < ambient.size(); ++group) add(ambient[group], static_cast<int>(group));
+  for (size_t group = 0; group < ambient.size(); ++group)
+    add(upsampled_light(ambient[group], colors_), static_cast<int>(group));
   if (options_.background_shines) add(background);
 }
 
@@ -205,7 +220,7 @@ void PathTracer::add_lamps_along(const Ray& ray, double end, const Medium& mediu
                           : origin_.gone == 0;
     if (!here) continue;
     const double weight = origin_.sharp ? 1 : power_heuristic(origin_.density, origin_.choices[i] * lamp->density);
-    const Spectrum light = static_cast<float>(weight * lamp->density) * lamp->irradiance *
+    const Spectrum light = static_cast<float>(weight * lamp->density) * light_of(*lamps[i], lamp->irradiance, colors_) *
                            transmittance(medium.extinction(), lamp->distance - origin_.gone);
     add(light, world_.lamp_groups()[i], bounces_ == 1 && !origin_.sharp);
   }
@@ -243,7 +258,7 @@ void PathTracer::add_lamp(const Boundary& seen, const Bsdf& bsdf, const Media& m
   if (sample.irradiance.is_zero()) return;
   const Spectrum reflected = bsdf.evaluate(sample.direction);
   if (reflected.is_zero()) return;
-  Spectrum visible = kWhite;
+  Spectrum visible = whole(colors_);
   if (lamp.casts_shadows()) {
     const bool behind = glm::dot(sample.direction, seen.geometric_normal()) < 0;
     Ray ray;
@@ -252,13 +267,14 @@ void PathTracer::add_lamp(const Boundary& seen, const Bsdf& bsdf, const Media& m
                  behind ? -seen.geometric_normal() : seen.geometric_normal(), ray);
     ray.direction = sample.direction;
     ray.t_max = sample.distance;
-    visible = unobstructed(world_, ray, behind ? seen.behind : media, sample_);
+    visible = unobstructed(world_, ray, behind ? seen.behind : media, colors_, sample_);
     if (visible.is_zero()) return;
   }
   const double chosen = choices_[i];
   const double weight =
       sample.density > 0 ? power_heuristic(chosen * sample.density, bsdf.density(sample.direction)) : 1;
-  const Spectrum light = static_cast<float>(weight / chosen) * (visible * reflected * sample.irradiance);
+  const Spectrum light =
+      static_cast<float>(weight / chosen) * (visible * reflected * light_of(lamp, sample.irradiance, colors_));
   note_first(seen, bsdf, sample.direction);
   ++bounces_;
   add(light, world_.lamp_groups()[i], bounces_ == 1);
@@ -284,7 +300,7 @@ void PathTracer::add_glow(size_t number, const Boundary& seen, const Bsdf& bsdf,
   Media media = behind ? seen.behind : around;
   const Boundary met(world_, ray, hit, wavelengths_, media);
   if (!met.changes_filling || met.point.instance != glow.instance) return;
-  const Spectrum emission = met.material->scattering(met.point, kPrimaries).emission;
+  const Spectrum emission = met.material->scattering(met.point, colors_).emission;
   const double density = choices_[world_.lamps().size() + number] / cone.solid_angle();
   const double weight = power_heuristic(density, bsdf.density(direction));
   const Spectrum light = static_cast<float>(weight / density) *
@@ -313,15 +329,15 @@ void PathTracer::add_caustic(const Boundary& seen, const Bsdf& bsdf) {
   caustics_->photons.each_near(seen.point.position, seen.geometric_normal(), [&](const Photon& photon, double density) {
     const double cosine = std::fabs(glm::dot(photon.from, bsdf.normal()));
     const auto factor = static_cast<float>(density / std::max(cosine, kLeastCosine));
-    const Spectrum light = factor * (bsdf.evaluate(photon.from) * photon.power);
+    const Spectrum light = factor * (bsdf.evaluate(photon.from) * of_photons_(photon.power));
     sum += light;
     if (parts_) landed_.emplace_back(&photon, light);
   });
   if (sum.is_zero()) return;
   bounces_ += 2;  // of the lamp's light at least the mirror and this surface are behind it
-  const Spectrum arriving = share_ * sum;
-  const float clamped = clamping(arriving);
-  sample_.radiance += clamped * arriving;
+  const Spectrum seen_light = color(share_ * sum);
+  const float clamped = clamping(seen_light);
+  sample_.radiance += clamped * seen_light;
   bounces_ -= 2;
   if (!parts_) return;
   for (const auto& [photon, light] : landed_) {
@@ -345,20 +361,22 @@ void PathTracer::add_caught_shadow(const Boundary& seen, const Spectrum& strengt
       const LightSample sample = lamp->sample(seen.point.position, i, square.x, square.y);
       const double cosine = glm::dot(sample.direction, seen.geometric_normal());
       if (cosine <= 0) continue;
-      const Spectrum light = static_cast<float>(sample.weight * cosine / kPi) * sample.irradiance;
+      const Spectrum light =
+          static_cast<float>(sample.weight * cosine / kPi) * light_of(*lamp, sample.irradiance, colors_);
       open += light;
       ray.direction = sample.direction;
       ray.t_max = sample.distance;
-      lit += lamp->casts_shadows() ? unobstructed(world_, ray, media, sample_) * light : light;
+      lit += lamp->casts_shadows() ? unobstructed(world_, ray, media, colors_, sample_) * light : light;
     }
   }
   Spectrum missing;
-  for (int i = 0; i < 3; ++i) {
-    const float all = world_.ambient()[i] + open[i];
+  const Spectrum ambient = upsampled_light(world_.ambient(), colors_);
+  for (int i = 0; i < 4; ++i) {
+    const float all = ambient[i] + open[i];
     if (all > 0) missing.set(i, strength[i] * (open[i] - lit[i]) / all);
   }
   if (bounces_ == 0) sample_.alpha = missing.largest();
-  add((kWhite - missing) * world_.model().background);
+  add((whole(colors_) - missing) * upsampled_light(world_.model().background, colors_));
 }
 
 void PathTracer::record(const Boundary& seen) {
@@ -370,28 +388,42 @@ void PathTracer::record(const Boundary& seen) {
                              seen.material->cell(seen.point));
 }
 
+void PathTracer::take_four_wavelengths() {
+  hero_ = hero_wavelengths(random_.next_sobol_pair().x);
+  colors_ = wavelengths_ = hero_.wavelengths;
+  share_ = whole(colors_);
+  if (caustics_) of_photons_ = LinearUpsampling(colors_);
+}
+
+// Which is the first one of four, after which a substance's index has been asked for all the time.
 void PathTracer::take_one_wavelength() {
+  one_wavelength_ = true;
+  if (options_.spectral) {
+    share_ = Spectrum(4 * share_[0], 0, 0, 0);
+    return;
+  }
   const WavelengthSample taken = sample_wavelength(random_.next_sobol_pair().x);
   share_ *= taken.share;
   wavelengths_.nanometres.fill(taken.nanometres);
-  one_wavelength_ = true;
 }
 
-// A random walk in a substance that scatters. The way to the next scattering is drawn for one of the colours, by their
+// A random walk in a substance that scatters. The way to the next scattering is drawn for one of the lanes, by their
 // shares, and weighted by its density for all of them; false: it lies behind `end`, and the light that gets there is
 // counted. Lamps are asked where they are seen straight through the substance's boundary.
 bool PathTracer::is_scattered(Ray& ray, double end, const Medium& medium, const Media& media) {
   const Spectrum loss = medium.extinction();
-  const double sum = static_cast<double>(share_[0]) + share_[1] + share_[2];
-  const auto chance = [&](int lane) { return sum > 0 ? share_[lane] / sum : 1.0 / 3; };
+  const int lanes = options_.spectral ? 4 : 3;
+  double sum = 0;
+  for (int i = 0; i < lanes; ++i) sum += share_[i];
+  const auto chance = [&](int lane) { return sum > 0 ? share_[lane] / sum : 1.0 / lanes; };
   const Vec2 choice = random_.next_pair(), square = random_.next_pair();
   int lane = 0;
   double place = choice.x;
-  while (lane < 2 && place >= chance(lane)) place -= chance(lane++);
+  while (lane + 1 < lanes && place >= chance(lane)) place -= chance(lane++);
   const double way = loss[lane] > 0 ? -std::log1p(-choice.y) / loss[lane] : kInfinity;
   const Spectrum kept = transmittance(loss, std::min(way, end));
   double density = 0;
-  for (int i = 0; i < 3; ++i) density += chance(i) * kept[i] * (way < end ? loss[i] : 1);
+  for (int i = 0; i < lanes; ++i) density += chance(i) * kept[i] * (way < end ? loss[i] : 1);
   if (!(density > 0)) {
     share_ = Spectrum();
     return false;
@@ -435,13 +467,14 @@ void PathTracer::add_lamp_in_medium(const Vec3& place, const Vec3& along, const 
   ray.origin = place;
   ray.direction = sample.direction;
   ray.t_max = sample.distance;
-  const Spectrum visible = lamp.casts_shadows() ? unobstructed(world_, ray, media, sample_) : kWhite;
+  const Spectrum visible = lamp.casts_shadows() ? unobstructed(world_, ray, media, colors_, sample_) : whole(colors_);
   const double turned = phase(glm::dot(sample.direction, along), medium.forward);
   const double weight = sample.density > 0 ? power_heuristic(choices_[i] * sample.density, turned) : 1;
-  add(static_cast<float>(weight * turned / choices_[i]) * (visible * sample.irradiance));
+  add(static_cast<float>(weight * turned / choices_[i]) * (visible * light_of(lamp, sample.irradiance, colors_)));
 }
 
-void PathTracer::trace(Ray ray, Hit hit, Media media) {
+void PathTracer::trace(Ray ray, Hit hit) {
+  Media media = media_at_origin(world_, ray, wavelengths_);
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     if (pass > 0 && !world_.nearest(ray, hit)) hit.instance = -1;
     const Medium medium = media.current();
@@ -463,7 +496,7 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
     }
     const Media around = media;
     std::optional<Boundary> met(std::in_place, world_, ray, hit, wavelengths_, media);
-    if (options_.dispersion && !one_wavelength_ && disperses(*met->material)) {
+    if ((options_.dispersion || options_.spectral) && !one_wavelength_ && disperses(*met->material)) {
       take_one_wavelength();
       media = around;
       met.emplace(world_, ray, hit, wavelengths_, media);
@@ -471,7 +504,7 @@ void PathTracer::trace(Ray ray, Hit hit, Media media) {
     const Boundary& seen = *met;
     if (!scatters) share_ *= transmittance(media.current().absorption, hit.t);
     way_ += hit.t;
-    const Scattering scattering = seen.material->scattering(seen.point, kPrimaries);
+    const Scattering scattering = seen.material->scattering(seen.point, colors_);
     if (seen.changes_filling && scattering.catches_shadows && seen.front && shown_) {
       if (bounces_ == 0) record(seen);
       add_caught_shadow(seen, matt_reflectance(scattering), media);
@@ -550,7 +583,7 @@ RaySample trace_path(const World& world, const Ray& ray, const Hit& first, Sampl
   RaySample sample;
   const auto parts = tell_parts ? std::make_shared<LightParts>() : nullptr;
   PathTracer tracer(world, random, options, caustics, sample, parts.get());
-  tracer.trace(ray, first, media_at_origin(world, ray, kYellow));
+  tracer.trace(ray, first);
   sample.parts = parts;
   return sample;
 }

@@ -23,6 +23,12 @@
 //   paths S+ P alone                          nothing: a point has no picture
 //   any path that ends D S+ E, D S+ sky       the drawn direction
 //
+// Spectral paths (spectra/hero_wavelengths.h) divide their light among the estimators in the same way. Photons carry
+// red, green and blue all the same, with one wavelength where glass parts colours: what they bring counts as the smooth
+// spectrum of its colour (LinearUpsampling), so that caustics are right in colour on white and grey surfaces, and near
+// to it on others. Densities do not depend on the wavelength but for refraction where colours part: so four wavelengths
+// of equal weight are the balance heuristic among them.
+//
 // Radiance is that over the square of the refractive index of the place.
 #pragma once
 
@@ -39,6 +45,7 @@ struct PathOptions {
   int max_scatterings = 1000;  // those of them that are no mirrors and smooth boundaries
   double clamp = 0;         // light that reached the eye over two and more surfaces is at most so bright; 0: as it is
   bool dispersion = false;  // paths that meet a substance whose index depends on the wavelength take one
+  bool spectral = false;    // paths carry four wavelengths in place of red, green and blue, and keep one of them there
   int photons = 0;          // for caustics, to be traced before the picture (trace_caustics); 0: none
   bool background_shines = false;  // the background lights the scene from everywhere
 };

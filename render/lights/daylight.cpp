@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "render/lobes/observer.h"
+#include "render/spectra/observer.h"
 
 namespace lekalo::render {
 

@@ -9,10 +9,11 @@ using namespace geometry;
 
 namespace {
 
-class DistantLamp final : public Light {
+class DistantLamp final : public SpectralLight {
  public:
   explicit DistantLamp(const DistantLight& light)
-      : light_(light),
+      : SpectralLight(light.lamp),
+        light_(light),
         frame_(frame_about(Vec3(0), -light.direction)),
         sine_(std::sin(0.5 * light.angular_diameter)),
         one_minus_cosine_(1 - std::cos(0.5 * light.angular_diameter)),

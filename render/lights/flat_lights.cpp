@@ -14,10 +14,11 @@ using namespace geometry;
 
 namespace {
 
-class FlatLamp : public Light {
+class FlatLamp : public SpectralLight {
  public:
   FlatLamp(const Frame& frame, bool one_sided, const AreaSampling& sampling, const Lamp& lamp)
-      : frame_(frame),
+      : SpectralLight(lamp),
+        frame_(frame),
         one_sided_(one_sided),
         weight_(1.0 / (sampling.n * sampling.n)),
         sampling_(sampling),

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "render/lights/lights.h"
+#include "render/spectra/hero_wavelengths.h"
+#include "render/spectra/upsampling.h"
 
 namespace lekalo::render {
 
@@ -40,9 +42,16 @@ RoundIrradiance::RoundIrradiance(const Lamp& lamp, const AreaSampling& sampling)
   }
 }
 
+Spectrum light_of(const Light& light, const Spectrum& color, const Wavelengths& wavelengths) {
+  if (!is_spectral(wavelengths)) return color;
+  const auto* known = dynamic_cast<const SpectralLight*>(&light);
+  return known && known->spectrum() ? known->spectrum()->at(color, wavelengths) : upsampled_light(color, wavelengths);
+}
+
 void declare_lamp(TypeDeclaration& type, bool with_decay) {
-  type.field("color", color().non_negative(), "of the light", "white")
-      .field("intensity", number().non_negative(),
+  type.field("color", color().non_negative(), "of the light", "white");
+  declare_lamp_spectrum(type);
+  type.field("intensity", number().non_negative(),
              with_decay ? "radiance of a white matt surface that faces the light (at distance 1 with inverse_square)"
                         : "radiance of a white matt surface that faces the light",
              "1");
@@ -53,6 +62,8 @@ void declare_lamp(TypeDeclaration& type, bool with_decay) {
 Lamp lamp(const Fields& fields) {
   Lamp lamp;
   lamp.color = fields.vec3("color");
+  lamp.spectrum = lamp_spectrum(fields);
+  if (lamp.spectrum) lamp.color = lamp.spectrum->color();
   lamp.intensity = fields.number("intensity");
   lamp.inverse_square = fields.has("decay") && fields.text("decay") == "inverse_square";
   lamp.shadows = fields.boolean("shadows");

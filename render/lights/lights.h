@@ -6,6 +6,7 @@
 #include "render/image/image.h"
 #include "render/light.h"
 #include "render/lights/ies_profile.h"
+#include "render/spectra/lamp_spectrum.h"
 
 namespace lekalo::render {
 
@@ -15,6 +16,7 @@ struct Lamp {
   double intensity = 1;  // >= 0
   bool inverse_square = false;
   bool shadows = true;
+  LampSpectrumPtr spectrum;  // for spectral rendering; then `color` is its colour. Null: the colour alone is known
 };
 
 // How an area is sampled: n x n places.
@@ -106,7 +108,20 @@ LightPtr make_light(const EnvironmentLight& light);
 LightPtr make_light(const ProfileLight& light);
 LightPtr make_light(const AmbientLight& light);
 
+// Light of a source at the wavelengths, for the colour that it tells: by the lamp's own spectrum, or upsampled.
+Spectrum light_of(const Light& light, const Spectrum& color, const Wavelengths& wavelengths);
+
 // For the lights' own files.
+
+// A light whose values hold a Lamp.
+class SpectralLight : public Light {
+ public:
+  explicit SpectralLight(const Lamp& lamp) : spectrum_(lamp.spectrum) {}
+  const LampSpectrum* spectrum() const { return spectrum_.get(); }
+
+ private:
+  LampSpectrumPtr spectrum_;
+};
 
 // E at right angles by distance.
 class Irradiance {
@@ -142,7 +157,7 @@ class RoundIrradiance {
   double mean_square_;  // of the samples' distances from the disc's centre
 };
 
-// Fields color, intensity, shadows, and decay where `with_decay`.
+// Fields color, spectrum, temperature, intensity, shadows, and decay where `with_decay`.
 void declare_lamp(geometry::TypeDeclaration& type, bool with_decay = true);
 Lamp lamp(const geometry::Fields& fields);
 // Fields samples and sampling.

@@ -7,9 +7,9 @@ using namespace geometry;
 
 namespace {
 
-class PointLamp final : public Light {
+class PointLamp final : public SpectralLight {
  public:
-  explicit PointLamp(const PointLight& light) : light_(light), irradiance_(light.lamp) {}
+  explicit PointLamp(const PointLight& light) : SpectralLight(light.lamp), light_(light), irradiance_(light.lamp) {}
 
   LightSample sample(const Vec3& point, int, double, double) const override {
     const Vec3 to_light = light_.position - point;

@@ -10,9 +10,9 @@ using namespace geometry;
 
 namespace {
 
-class ProfileLamp final : public Light {
+class ProfileLamp final : public SpectralLight {
  public:
-  explicit ProfileLamp(const ProfileLight& light) : light_(light), irradiance_(light.lamp) {}
+  explicit ProfileLamp(const ProfileLight& light) : SpectralLight(light.lamp), light_(light), irradiance_(light.lamp) {}
 
   LightSample sample(const Vec3& point, int, double, double) const override {
     const Vec3 to_light = light_.frame.origin - point;

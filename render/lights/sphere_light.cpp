@@ -9,10 +9,10 @@ using namespace geometry;
 
 namespace {
 
-class SphereLamp final : public Light {
+class SphereLamp final : public SpectralLight {
  public:
   explicit SphereLamp(const SphereLight& light)
-      : light_(light), irradiance_(light.lamp, light.sampling), whole_(light.lamp, {}) {}
+      : SpectralLight(light.lamp), light_(light), irradiance_(light.lamp, light.sampling), whole_(light.lamp, {}) {}
 
   int sample_count() const override { return light_.sampling.n * light_.sampling.n; }
 

@@ -10,10 +10,11 @@ using namespace geometry;
 
 namespace {
 
-class SpotLamp final : public Light {
+class SpotLamp final : public SpectralLight {
  public:
   explicit SpotLamp(const SpotLight& light)
-      : light_(light),
+      : SpectralLight(light.lamp),
+        light_(light),
         irradiance_(light.lamp),
         cos_outer_(std::cos(light.angle)),
         cos_inner_(std::cos(light.inner_angle)) {}

@@ -93,7 +93,7 @@ Spectrum Bsdf::evaluate(const Vec3& in) const { return sum_over(in, evaluate_lob
 Spectrum Bsdf::matt_share(const Vec3& in) const {
   const Spectrum all = evaluate(in), matt = sum_over(in, evaluate_matt);
   Spectrum share;
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < 4; ++i)
     if (all[i] > 0) share.set(i, matt[i] / all[i]);
   return share;
 }

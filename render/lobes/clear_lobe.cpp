@@ -6,6 +6,7 @@
 #include "render/lobes/classic_lobes.h"
 #include "render/lobes/fresnel.h"
 #include "render/lobes/microfacet.h"
+#include "render/spectra/hero_wavelengths.h"
 
 namespace lekalo::render {
 
@@ -23,9 +24,11 @@ std::optional<Vec3> facet(const Vec3& out, const Vec3& in, double eta) {
   return h;
 }
 
-// What the lobe chooses to reflect.
-double chosen(const Spectrum& reflectance) {
-  return std::clamp((reflectance[0] + reflectance[1] + reflectance[2]) / 3.0, 0.0, 1.0);
+// What the lobe chooses to reflect: the mean of its lanes. For four wavelengths that is the balance heuristic over the
+// choices that each of them would make (Wilkie et al. 2014).
+double chosen(const Spectrum& reflectance, const Wavelengths& wavelengths) {
+  const float sum = reflectance[0] + reflectance[1] + reflectance[2];
+  return std::clamp(is_spectral(wavelengths) ? (sum + reflectance[3]) / 4.0 : sum / 3.0, 0.0, 1.0);
 }
 Spectrum rest(const Spectrum& share) { return Spectrum(1.0f) - share; }
 
@@ -48,17 +51,17 @@ Spectrum ClearLobe::reflectance(double cosine, const Sides& sides) const {
     return Spectrum(static_cast<float>(f));
   }
   if (thin) {  // all bounces between the face with the film and the other one
-    const Spectrum coated = film->reflectance(thickness, cosine);
+    const Spectrum coated = film->reflectance(thickness, cosine, wavelengths);
     const auto bare = static_cast<float>(fresnel_dielectric(cosine, sides.near, index));
     Spectrum sum = coated;
     for (int i = 0; i < 4; ++i)
       sum.set(i, std::min(1.0f, coated[i] + (1 - coated[i]) * (1 - coated[i]) * bare / (1 - coated[i] * bare + 1e-9f)));
     return sum;
   }
-  if (sides.near <= sides.behind) return film->reflectance(thickness, cosine);
+  if (sides.near <= sides.behind) return film->reflectance(thickness, cosine, wavelengths);
   // From within: the same as for the light that comes the other way.
   const double ratio = sides.near / sides.behind, sine = ratio * std::sqrt(std::max(0.0, 1 - cosine * cosine));
-  return sine >= 1 ? Spectrum(1.0f) : film->reflectance(thickness, std::sqrt(1 - sine * sine));
+  return sine >= 1 ? Spectrum(1.0f) : film->reflectance(thickness, std::sqrt(1 - sine * sine), wavelengths);
 }
 
 Spectrum ClearLobe::evaluate(const Vec3& out, const Vec3& in, const Sides& sides) const {
@@ -87,7 +90,7 @@ double ClearLobe::density(const Vec3& out, const Vec3& in, const Sides& sides) c
   const std::optional<Vec3> h = facet(out, thin && passes ? flipped(in) : in, eta);
   if (!h) return 0;
   const double along = glm::dot(out, *h), visible = facets.visible_facets(out, *h);
-  const double f = chosen(reflectance(along, sides));
+  const double f = chosen(reflectance(along, sides), wavelengths);
   if (!passes || thin) return (passes ? 1 - f : f) * visible / (4 * along);
   const double across = glm::dot(in, *h), width = across + along / eta;
   return (1 - f) * visible * std::fabs(across) / (width * width);
@@ -101,7 +104,7 @@ Spectrum ClearLobe::straight_share(const Vec3& out, const Sides& sides) const {
 
 LobeSample ClearLobe::smooth_sample(const Vec3& out, double choice, const Sides& sides) const {
   const Spectrum reflected = reflectance(out.z, sides);
-  const double f = chosen(reflected);
+  const double f = chosen(reflected, wavelengths);
   if (choice < f) return {mirrored(out), true, f, reflected};
   const std::optional<Vec3> behind = thin ? -out : refracted_behind(out, sides);
   if (!behind) return {};
@@ -112,7 +115,7 @@ LobeSample ClearLobe::sample(const Vec3& out, const Vec2& choice, const Vec2& sq
   if (smooth(sides)) return smooth_sample(out, choice.x, sides);
   const Vec3 h = microfacets(roughness, 0).visible_facet(out, square);
   const double along = glm::dot(out, h);
-  const double f = chosen(reflectance(along, sides));
+  const double f = chosen(reflectance(along, sides), wavelengths);
   Vec3 in = 2 * along * h - out;
   if (choice.x < f) {
     if (in.z <= 0) return {};

@@ -19,8 +19,9 @@ struct ClearLobe {
   bool thin = false;
   Spectrum tint{1.0f};  // of what passes
   const FilmTable* film =
-      nullptr;           // over the body, of panes over one face; it takes the place of Fresnel's reflectance
-  double thickness = 0;  // of the film, nanometres
+      nullptr;              // over the body, of panes over one face; it takes the place of Fresnel's reflectance
+  double thickness = 0;     // of the film, nanometres
+  Wavelengths wavelengths;  // of the lanes, for the film
 
   Spectrum evaluate(const Vec3& out, const Vec3& in, const Sides& sides) const;
   double density(const Vec3& out, const Vec3& in, const Sides& sides) const;

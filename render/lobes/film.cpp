@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/lobes/observer.h"
+#include "render/spectra/hero_wavelengths.h"
+#include "render/spectra/observer.h"
 
 namespace lekalo::render {
 
@@ -52,7 +53,7 @@ double film_reflectance(double cos_incident, double n0, double n1, Complex n2, d
 }
 
 FilmTable::FilmTable(double index, double least, double most, const std::function<Complex(double)>& substance)
-    : least_(least), most_(most), rows_(most > least ? kThicknesses : 1) {
+    : index_(index), substance_(substance), least_(least), most_(most), rows_(most > least ? kThicknesses : 1) {
   for (int row = 0; row < rows_; ++row) {
     const double thickness = rows_ == 1 ? least : least + (most - least) * row / (rows_ - 1);
     for (int k = 0; k < kCosines; ++k)
@@ -62,7 +63,18 @@ FilmTable::FilmTable(double index, double least, double most, const std::functio
   }
 }
 
-Spectrum FilmTable::reflectance(double thickness, double cosine) const {
+Spectrum FilmTable::reflectance(double thickness, double cosine, const Wavelengths& wavelengths) const {
+  if (!is_spectral(wavelengths)) return tabled(thickness, cosine);
+  Spectrum value;
+  for (int i = 0; i < 4; ++i) {
+    const double nanometres = wavelengths.nanometres[static_cast<size_t>(i)];
+    value.set(i,
+              static_cast<float>(film_reflectance(cosine, 1, index_, substance_(nanometres), thickness, nanometres)));
+  }
+  return value;
+}
+
+Spectrum FilmTable::tabled(double thickness, double cosine) const {
   const auto [row, b] = entry(rows_ == 1 ? 0 : (thickness - least_) / (most_ - least_) * (rows_ - 1), rows_);
   const auto [k, a] = entry(std::clamp(cosine, 0.0, 1.0) * (kCosines - 1), kCosines);
   const auto in_row = [&](int r) {

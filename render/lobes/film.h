@@ -28,9 +28,14 @@ class FilmTable {
   // nanometres.
   FilmTable(double index, double least, double most, const std::function<std::complex<double>(double)>& substance);
 
-  Spectrum reflectance(double thickness, double cosine) const;
+  // At wavelengths of spectral rendering of these, without the table.
+  Spectrum reflectance(double thickness, double cosine, const Wavelengths& wavelengths = {}) const;
 
  private:
+  Spectrum tabled(double thickness, double cosine) const;
+
+  double index_;
+  std::function<std::complex<double>(double)> substance_;
   double least_, most_;
   int rows_;
   std::vector<Spectrum> table_;  // by thickness, then cosine

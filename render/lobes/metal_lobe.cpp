@@ -12,7 +12,7 @@ using geometry::kPi;
 
 Spectrum MetalReflectance::at(double cosine, double near) const {
   const double c = std::clamp(cosine, 0.0, 1.0);
-  if (film) return film->reflectance(thickness, c);
+  if (film) return film->reflectance(thickness, c, wavelengths);
   if (measured()) return fresnel_conductor(c, static_cast<float>(1 / near) * n, static_cast<float>(1 / near) * k);
   const double x = 1 - c, x5 = x * x * x * x * x;
   return tinted(x5, c * x5 * x);

@@ -17,6 +17,7 @@ struct MetalReflectance {
   Spectrum color, edge_tint{1.0f};
   const FilmTable* film = nullptr;  // over the metal, in place of all these
   double thickness = 0;             // of the film, nanometres
+  Wavelengths wavelengths;          // of the lanes, for the film
 
   bool measured() const { return !n.is_zero(); }
   // From a side of the given index.

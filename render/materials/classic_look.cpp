@@ -17,17 +17,21 @@ class ClassicMaterial final : public Material {
     for (const TexturedColor* color : {&look_.color, &look_.ambient, &look_.diffuse, &look_.specular, &look_.mirror,
                                        &look_.transmission, &look_.emission})
       if (color->texture()) textures_.push_back(color->texture());
-    if (textures_.empty()) same_everywhere_ = at({});
+    if (textures_.empty()) same_everywhere_ = at({}, {});
     if (!look_.transmission.is_black())
       interior_ = Medium{static_cast<float>(look_.index), rgb(look_.absorption), look_.priority};
     is_even_ = textures_.empty() && look_.normal_deviation.amplitude == 0;
   }
 
-  Scattering scattering(const SurfacePoint& point, const Wavelengths&) const override {
-    return textures_.empty() ? same_everywhere_ : at(point);
+  Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
+    return textures_.empty() && !is_spectral(wavelengths) ? same_everywhere_ : at(point, wavelengths);
   }
 
-  std::optional<Medium> interior(const Wavelengths&) const override { return interior_; }
+  std::optional<Medium> interior(const Wavelengths& wavelengths) const override {
+    std::optional<Medium> medium = interior_;
+    if (medium) medium->absorption = upsampled_light(medium->absorption, wavelengths);
+    return medium;
+  }
 
   bool transmits() const override { return interior_.has_value(); }
   bool uses_parameters() const override { return !is_even_; }
@@ -44,16 +48,17 @@ class ClassicMaterial final : public Material {
   std::any made_from() const override { return look_; }
 
  private:
-  Scattering at(const SurfacePoint& point) const {
+  Scattering at(const SurfacePoint& point, const Wavelengths& wavelengths) const {
     Scattering s;
-    const Spectrum color = look_.color.at(point);
-    s.emission = look_.emission.at(point);
-    s.ambient = color * look_.ambient.at(point);
-    const Spectrum diffuse = color * look_.diffuse.at(point), specular = look_.specular.at(point);
+    const Spectrum color = look_.color.at(point, wavelengths);
+    s.emission = look_.emission.light_at(point, wavelengths);
+    s.ambient = color * look_.ambient.at(point, wavelengths);
+    const Spectrum diffuse = color * look_.diffuse.at(point, wavelengths),
+                   specular = look_.specular.at(point, wavelengths);
     if (!diffuse.is_zero()) s.lobes.add(LambertLobe{diffuse});
     if (!specular.is_zero()) s.lobes.add(PhongLobe{specular, look_.exponent});
-    const BoundaryLobe boundary{look_.mirror.at(point), look_.transmission.at(point), look_.fresnel,
-                                look_.transmission_exponent};
+    const BoundaryLobe boundary{look_.mirror.at(point, wavelengths), look_.transmission.at(point, wavelengths),
+                                look_.fresnel, look_.transmission_exponent};
     if (!boundary.mirror.is_zero() || !boundary.transmission.is_zero()) s.lobes.add(boundary);
     s.two_sided = look_.two_sided;
     s.unbalanced = true;

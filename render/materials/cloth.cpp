@@ -12,11 +12,11 @@ class ClothMaterial final : public Material {
  public:
   explicit ClothMaterial(const Cloth& cloth) : cloth_(cloth), albedo_(sheen_albedo(cloth.sheen_roughness)) {}
 
-  Scattering scattering(const SurfacePoint& point, const Wavelengths&) const override {
+  Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
     Scattering s;
-    s.lobes.add(RoughMattLobe{cloth_.color.at(point), cloth_.roughness});
+    s.lobes.add(RoughMattLobe{cloth_.color.at(point, wavelengths), cloth_.roughness});
     SheenLobe nap;
-    nap.color = cloth_.sheen_color.at(point);
+    nap.color = cloth_.sheen_color.at(point, wavelengths);
     nap.roughness = cloth_.sheen_roughness;
     nap.albedo = albedo_.get();
     s.lobes.cover(nap, Spectrum(static_cast<float>(cloth_.sheen)), *albedo_);

@@ -56,9 +56,10 @@ class ConductorMaterial final : public Material {
   static bool is_usual(const Wavelengths& wavelengths) { return wavelengths.nanometres == Wavelengths{}.nanometres; }
   MetalReflectance reflectance(const SurfacePoint& point, const Wavelengths& wavelengths) const {
     MetalReflectance f;
+    f.wavelengths = wavelengths;
     if (conductor_.metal.empty()) {
-      f.color = conductor_.color.at(point);
-      f.edge_tint = conductor_.edge_tint.at(point);
+      f.color = conductor_.color.at(point, wavelengths);
+      f.edge_tint = conductor_.edge_tint.at(point, wavelengths);
       return f;
     }
     const ComplexIndex index = is_usual(wavelengths) ? rgb_index_ : metal_index(conductor_.metal, wavelengths);

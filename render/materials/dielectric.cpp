@@ -21,9 +21,10 @@ class DielectricMaterial final : public Material {
     lobe_.film = film_.get();
   }
 
-  Scattering scattering(const SurfacePoint& point, const Wavelengths&) const override {
+  Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
     Scattering s;
     ClearLobe lobe = lobe_;
+    lobe.wavelengths = wavelengths;
     lobe.roughness = dielectric_.roughness.at(point);
     if (film_) lobe.thickness = dielectric_.film.thickness(point);
     s.lobes.add(lobe);
@@ -33,8 +34,9 @@ class DielectricMaterial final : public Material {
   std::optional<Medium> interior(const Wavelengths& wavelengths) const override {
     if (dielectric_.thin) return std::nullopt;
     const float nanometres = wavelengths.nanometres[0];
-    return Medium{static_cast<float>(nanometres == kLineD ? index_d_ : index(nanometres)), rgb(dielectric_.absorption),
-                  dielectric_.priority, rgb(dielectric_.scattering), static_cast<float>(dielectric_.forward)};
+    return Medium{static_cast<float>(nanometres == kLineD ? index_d_ : index(nanometres)),
+                  upsampled_light(rgb(dielectric_.absorption), wavelengths), dielectric_.priority,
+                  upsampled_light(rgb(dielectric_.scattering), wavelengths), static_cast<float>(dielectric_.forward)};
   }
   bool transmits() const override { return true; }
   bool uses_parameters() const override {

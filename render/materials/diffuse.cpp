@@ -12,13 +12,13 @@ class DiffuseMaterial final : public Material {
  public:
   explicit DiffuseMaterial(const Diffuse& diffuse) : diffuse_(diffuse) {}
 
-  Scattering scattering(const SurfacePoint& point, const Wavelengths&) const override {
+  Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
     Scattering s;
     const double rough = diffuse_.roughness.at(point);
     if (rough > 0)
-      s.lobes.add(RoughMattLobe{diffuse_.color.at(point), rough});
+      s.lobes.add(RoughMattLobe{diffuse_.color.at(point, wavelengths), rough});
     else
-      s.lobes.add(LambertLobe{diffuse_.color.at(point)});
+      s.lobes.add(LambertLobe{diffuse_.color.at(point, wavelengths)});
     return s;
   }
   bool uses_parameters() const override {

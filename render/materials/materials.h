@@ -8,6 +8,7 @@
 #include "render/materials/roughness.h"
 #include "render/materials/textured_color.h"
 #include "render/materials/thin_film.h"
+#include "render/spectra/lamp_spectrum.h"
 
 namespace lekalo::render {
 
@@ -125,7 +126,8 @@ struct Principled {
 
 struct Emission {
   TexturedColor color = 1.0;
-  double strength = 1;  // radiance is color times strength
+  double strength = 1;       // radiance is color times strength
+  LampSpectrumPtr spectrum;  // for spectral rendering; then `color` is its colour
 };
 
 // Ground that shows nothing but the background and the shadows on it.

@@ -29,16 +29,15 @@ class MixedMaterial final : public Material {
   }
 
   Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
-    const Spectrum share = mix_.share.share_at(point);
+    const Spectrum share = mix_.share.share_at(point, wavelengths), rest = whole(wavelengths) - share;
     const Scattering first = mix_.first->scattering(point, wavelengths);
     const Scattering second = mix_.second->scattering(point, wavelengths);
     Scattering s;
-    s.lobes.append(first.lobes, Spectrum(1, 1, 1) - share);
+    s.lobes.append(first.lobes, rest);
     s.lobes.append(second.lobes, share);
-    s.emission = (Spectrum(1, 1, 1) - share) * first.emission + share * second.emission;
+    s.emission = rest * first.emission + share * second.emission;
     s.two_sided = first.two_sided || second.two_sided;
-    if (first.ambient || second.ambient)
-      s.ambient = (Spectrum(1, 1, 1) - share) * matt_ambient(first) + share * matt_ambient(second);
+    if (first.ambient || second.ambient) s.ambient = rest * matt_ambient(first) + share * matt_ambient(second);
     s.unbalanced = first.unbalanced || second.unbalanced;
     return s;
   }

@@ -16,9 +16,9 @@ class PlasticMaterial final : public Material {
         roughness_(plastic.roughness,
                    [index = plastic.index](double roughness) { return coat_albedo(roughness, index); }) {}
 
-  Scattering scattering(const SurfacePoint& point, const Wavelengths&) const override {
+  Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
     Scattering s;
-    CoatedMattLobe lobe{plastic_.color.at(point), coat_};
+    CoatedMattLobe lobe{plastic_.color.at(point, wavelengths), coat_};
     const TabledRoughness::Value rough = roughness_.at(point);
     lobe.coat.roughness = rough.roughness;
     lobe.coat.albedo = rough.albedo;

@@ -38,33 +38,34 @@ class PrincipledMaterial final : public Material {
       }
   }
 
-  Scattering scattering(const SurfacePoint& point, const Wavelengths&) const override {
+  Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
     Scattering s;
-    const Spectrum base = static_cast<float>(p_.base_weight) * p_.base_color.at(point);
+    const Spectrum base = static_cast<float>(p_.base_weight) * p_.base_color.at(point, wavelengths);
     // What passes the coat is coloured by it.
     const auto coated = static_cast<float>(p_.coat_weight.at(point));
-    const Spectrum tint = Spectrum(1 - coated) + coated * p_.coat_color.at(point);
+    const Spectrum tint = Spectrum(1 - coated) + coated * p_.coat_color.at(point, wavelengths);
     const double metalness = p_.base_metalness.at(point), opaque = 1 - metalness;
     const double passing = p_.transmission_weight.at(point);
-    s.lobes.add(metal(point, base), part(metalness) * tint);
+    s.lobes.add(metal(point, base, wavelengths), part(metalness) * tint);
     s.lobes.add(matt(point, base), part(opaque * (1 - passing)) * tint);
-    s.lobes.add(clear(point), part(opaque * passing) * tint);
+    s.lobes.add(clear(point, wavelengths), part(opaque * passing) * tint);
     CoatLobe coat = coat_lobe(p_.coat_ior);
     coat.roughness = p_.coat_roughness;
     coat.albedo = coat_.get();
     s.lobes.cover(coat, Spectrum(coated), *coat_);
     SheenLobe nap;
-    nap.color = p_.fuzz_color.at(point);
+    nap.color = p_.fuzz_color.at(point, wavelengths);
     nap.roughness = p_.fuzz_roughness;
     nap.albedo = fuzz_.get();
     s.lobes.cover(nap, Spectrum(static_cast<float>(p_.fuzz_weight.at(point))), *fuzz_);
-    s.emission = static_cast<float>(p_.emission_luminance) * p_.emission_color.at(point);
+    s.emission = static_cast<float>(p_.emission_luminance) * p_.emission_color.light_at(point, wavelengths);
     return s;
   }
 
   std::optional<Medium> interior(const Wavelengths& wavelengths) const override {
     if (!transmits()) return std::nullopt;
-    return Medium{static_cast<float>(index(wavelengths.nanometres[0])), rgb(absorption_), 0, rgb(scattering_),
+    return Medium{static_cast<float>(index(wavelengths.nanometres[0])), upsampled_light(rgb(absorption_), wavelengths),
+                  0, upsampled_light(rgb(scattering_), wavelengths),
                   static_cast<float>(p_.transmission_scatter_anisotropy)};
   }
   bool transmits() const override {
@@ -90,10 +91,10 @@ class PrincipledMaterial final : public Material {
     return cauchy_index(p_.specular_ior, p_.transmission_dispersion_abbe_number / scale, nanometres);
   }
   static Spectrum part(double weight) { return Spectrum(static_cast<float>(weight)); }
-  MetalLobe metal(const SurfacePoint& point, const Spectrum& color) const {
+  MetalLobe metal(const SurfacePoint& point, const Spectrum& color, const Wavelengths& wavelengths) const {
     MetalLobe lobe;
     lobe.reflectance.color = static_cast<float>(p_.specular_weight) * color;
-    lobe.reflectance.edge_tint = p_.specular_color.at(point);
+    lobe.reflectance.edge_tint = p_.specular_color.at(point, wavelengths);
     lobe.mean = lobe.reflectance.mean();
     lobe.anisotropy = p_.specular_roughness_anisotropy;
     const TabledRoughness::Value rough = metal_.at(point);
@@ -108,12 +109,12 @@ class PrincipledMaterial final : public Material {
     skin.albedo = rough.albedo;
     return {color, skin};
   }
-  ClearLobe clear(const SurfacePoint& point) const {
+  ClearLobe clear(const SurfacePoint& point, const Wavelengths& wavelengths) const {
     ClearLobe lobe;
     lobe.roughness = p_.specular_roughness.at(point);
     lobe.index = p_.specular_ior;
     lobe.facing = fresnel_dielectric(1, 1, p_.specular_ior);
-    if (p_.transmission_depth == 0) lobe.tint = rgb(p_.transmission_color);
+    if (p_.transmission_depth == 0) lobe.tint = upsampled_reflectance(rgb(p_.transmission_color), wavelengths);
     return lobe;
   }
 

@@ -1,6 +1,7 @@
 // Ground that looks like the background except where lights do not reach it.
 #include "render/lobes/scattering.h"
 #include "render/materials/materials.h"
+#include "render/spectra/hero_wavelengths.h"
 
 namespace lekalo::render {
 
@@ -10,18 +11,19 @@ namespace {
 
 class ShadowCatcherMaterial final : public Material {
  public:
-  explicit ShadowCatcherMaterial(const ShadowCatcher& catcher) : catcher_(catcher) {
-    scattering_.lobes.add(LambertLobe{rgb(Vec3(catcher.strength))});
-    scattering_.catches_shadows = true;
+  explicit ShadowCatcherMaterial(const ShadowCatcher& catcher) : catcher_(catcher) {}
+  Scattering scattering(const SurfacePoint&, const Wavelengths& wavelengths) const override {
+    Scattering s;
+    s.lobes.add(LambertLobe{static_cast<float>(catcher_.strength) * whole(wavelengths)});
+    s.catches_shadows = true;
+    return s;
   }
-  Scattering scattering(const SurfacePoint&, const Wavelengths&) const override { return scattering_; }
   bool uses_parameters() const override { return false; }
   Spectrum albedo(const SurfacePoint&, const Wavelengths&) const override { return {}; }
   std::any made_from() const override { return catcher_; }
 
  private:
   ShadowCatcher catcher_;
-  Scattering scattering_;
 };
 
 }  // namespace

@@ -68,11 +68,11 @@ class DetailedMaterial final : public Material {
   Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
     const Scattering plain = plain_->scattering(point, wavelengths);
     if (!detail_.has_holes) return plain;
-    const Spectrum opacity = detail_.opacity.share_at(point);
+    const Spectrum opacity = detail_.opacity.share_at(point, wavelengths), all = whole(wavelengths);
     Scattering s = plain;
     s.lobes = {};
     // Light goes straight through the holes. They count as a lobe (LobeList::kMost) where there are none, too.
-    s.lobes.add(BoundaryLobe{Spectrum(), Spectrum(1, 1, 1)}, Spectrum(1, 1, 1) - opacity + Spectrum(1e-20f));
+    s.lobes.add(BoundaryLobe{Spectrum(), all}, all - opacity + Spectrum(1e-20f));
     s.lobes.append(plain.lobes, opacity);
     s.emission = opacity * plain.emission;
     if (plain.ambient) s.ambient = opacity * *plain.ambient;

@@ -6,6 +6,8 @@
 
 #include "geometry/describe.h"
 #include "render/material.h"
+#include "render/spectra/hero_wavelengths.h"
+#include "render/spectra/upsampling.h"
 
 namespace lekalo::render {
 
@@ -16,11 +18,18 @@ class TexturedColor {
   TexturedColor(TexturePtr texture) : texture_(std::move(texture)) {}
 
   Spectrum at(const SurfacePoint& point) const { return texture_ ? texture_->at(point) : constant_; }
+  // The colour as a reflectance or as light at the wavelengths (spectra/upsampling.h).
+  Spectrum at(const SurfacePoint& point, const Wavelengths& wavelengths) const {
+    return upsampled_reflectance(at(point), wavelengths);
+  }
+  Spectrum light_at(const SurfacePoint& point, const Wavelengths& wavelengths) const {
+    return upsampled_light(at(point), wavelengths);
+  }
   // Each lane between 0 and 1, whatever a picture holds: for shares of two things.
-  Spectrum share_at(const SurfacePoint& point) const {
+  Spectrum share_at(const SurfacePoint& point, const Wavelengths& wavelengths) const {
     const Spectrum s = at(point);
     const auto share = [&](int lane) { return std::clamp(s[lane], 0.0f, 1.0f); };
-    return {share(0), share(1), share(2), share(3)};
+    return upsampled_reflectance({share(0), share(1), share(2), share(3)}, wavelengths);
   }
   uint64_t cell(const SurfacePoint& point) const { return texture_ ? texture_->cell(point) : 0; }
   const TexturePtr& texture() const { return texture_; }

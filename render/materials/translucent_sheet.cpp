@@ -12,10 +12,10 @@ class SheetMaterial final : public Material {
  public:
   explicit SheetMaterial(const TranslucentSheet& sheet) : sheet_(sheet) {}
 
-  Scattering scattering(const SurfacePoint& point, const Wavelengths&) const override {
-    SheetLobe lobe{sheet_.color.at(point), sheet_.transmission.at(point)};
+  Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
+    SheetLobe lobe{sheet_.color.at(point, wavelengths), sheet_.transmission.at(point, wavelengths)};
     const float most = (lobe.reflectance + lobe.transmittance).largest();
-    if (most > 1) {  // of textures, which nobody has checked
+    if (most > 1) {  // of textures, which nobody has checked, and of spectra
       lobe.reflectance *= 1 / most;
       lobe.transmittance *= 1 / most;
     }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "render/lobes/fresnel.h"
-#include "render/lobes/observer.h"
+#include "render/spectra/observer.h"
 
 namespace lekalo::render::film_test {
 namespace {

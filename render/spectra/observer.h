@@ -1,0 +1,26 @@
+// Spectra as the eye sees them.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "render/spectrum.h"
+
+namespace lekalo::render {
+
+// The tables of spectra have entries from 380 to 780 nm in these steps; between them they are straight lines.
+inline constexpr double kFirstNanometre = 380, kNanometreStep = 5;
+inline constexpr int kSpectrumEntries = 81;
+inline double entry_nanometres(int i) { return kFirstNanometre + kNanometreStep * i; }
+
+// The CIE 1931 functions x, y, z of the 2-degree observer.
+const std::vector<Vec3>& observer();
+
+// XYZ to linear Rec.709 (ITU-R BT.709-6, white D65).
+Vec3 rec709(const Vec3& xyz);
+
+// Linear Rec.709 of light with so much power per nanometre: of constant power 1 its luminance is the integral of the
+// function y, 106.857.
+Vec3 observed(const std::function<double(double nanometres)>& power);
+
+}  // namespace lekalo::render
