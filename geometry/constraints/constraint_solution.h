@@ -15,6 +15,7 @@ struct ConstraintSolution {
   int freedom = 0;                  // unknowns - rank: degrees of freedom that are left
   int redundant = 0;                // equations - rank
   double residual = 0;              // the largest that is left
+  bool by_blocks = false;           // found block by block
   std::vector<int> active;          // numbers of the constraints that are equations there
   std::vector<double> multipliers;  // of the equations in their order (Golovanov 2016, 7.5.2)
 };

@@ -342,7 +342,7 @@ class Solving {
 
 }  // namespace
 
-ConstraintSolution solve(const ConstraintSystem& system) { return Solving(system).run(); }
+ConstraintSolution solved_as_one(const ConstraintSystem& system) { return Solving(system).run(); }
 
 int jacobian_rank(const ConstraintSystem& system, std::span<const double> unknowns) {
   std::vector<int> equations;

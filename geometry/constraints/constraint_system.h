@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,11 +32,19 @@ struct ConstraintSystem {
   double size = 1;  // a length of the model, which errors are relative to
 };
 
+// The solution with the least change: block by block where the system can be taken apart so (7.6), else as one. Throws
+// ConstraintError.
+ConstraintSolution solve(const ConstraintSystem& system);
+
+// By blocks alone (decomposition.h); nothing where they do not say all: where one has no solution, or leaves unknowns
+// free that its count holds, or where an inequality is no more than just met.
+std::optional<ConstraintSolution> solved_by_blocks(const ConstraintSystem& system);
+
 // Newton's method on the conditions of Lagrange for the least change, from the start; where it does not come to an end,
 // or to a place from which the change can fall, steps of least norm to a solution first, and from it again.
 // Inequalities that are violated become equations, those whose multiplier says that they hold nothing back cease to be
 // one. Throws ConstraintError.
-ConstraintSolution solve(const ConstraintSystem& system);
+ConstraintSolution solved_as_one(const ConstraintSystem& system);
 
 // The rank of the Jacobian at given unknowns, by singular values above 1e-9 of the largest.
 int jacobian_rank(const ConstraintSystem& system, std::span<const double> unknowns);

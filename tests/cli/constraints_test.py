@@ -70,6 +70,28 @@ class Constraints(ProgramTest):
         self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, 1.5)  # it was 2.7
         self.assertEqual(found["freedom"], 59)
 
+    def test_the_graph_tells_blocks_and_rigid_parts(self):
+        points = "  points: [{name: a, at: [0, 0]}, {name: b, at: [1.1, 0]}, {name: c, at: [0.4, 0.8]}, {name: d, at: [2, 1]}]\n"
+        sides = [f"{{type: distance, between: [{x}, {y}], value: 1, name: {x}{y}}}" for x, y in ("ab", "bc", "ca", "bd")]
+        said = self.run_program("solve", self.scene(["{type: fixed, of: a}", "{type: horizontal, between: [a, b]}"] + sides, points),
+                                "--graph")[0]
+        for line in ("blocks, the largest of 2 unknowns, solved one after another", "well  b_x <- ab", "well  c_x, c_y <- bc, ca",
+                     "under d_x, d_y <- bd", "rigid by count of distances: a, b, c", "rigid by rank: a, b, c"):
+            self.assertIn(line, said)
+        # A triangle on two fixed points that contradict its side: more equations than unknowns.
+        fixed = ["{type: fixed, of: a}", "{type: fixed, of: b}", "{type: distance, between: [a, b], value: 1.1}"]
+        found = self.json_of("solve", self.scene(fixed, points), "--graph")
+        self.assertEqual(found["graph"]["blocks"][0]["part"], "over")
+        self.assertEqual(found["redundant"], 1)
+
+    def test_inequalities_go_with_blocks_while_they_hold(self):
+        for bound, by_blocks in (("a >= 1", True), ("a >= 2.5", False)):
+            scene = self.scene([f"{{type: equation, is: '{one}'}}" for one in ("b = a + 1", "c = 3", bound)],
+                               "  variables: [{name: a, start: 2}, {name: b, start: 3}, {name: c, start: 0}]\n")
+            found = self.json_of("solve", scene, "--graph")
+            self.assertEqual(found["graph"]["solved_by_blocks"], by_blocks)
+            self.assert_near([found["variables"][x] for x in "abc"], [2, 3, 3] if by_blocks else [2.5, 3.5, 3], 1e-12)
+
     def test_names_are_names_and_mean_one_thing(self):
         for unknowns, message in (
                 ("points: [{name: p, at: [0, 0]}]\n  variables: [{name: p_x, start: 1}]", "'p_x' is a coordinate of 'p'"),

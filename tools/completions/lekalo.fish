@@ -93,6 +93,7 @@ complete -c lekalo -n '__fish_seen_subcommand_from solve' -s h -l help -d 'Print
 complete -c lekalo -n '__fish_seen_subcommand_from solve' -l set -x -d 'value of a parameter, e.g. --set w=4; repeatable'
 complete -c lekalo -n '__fish_seen_subcommand_from solve' -l allow-external -d 'let the scene run code from outside the program: libraries and commands that it names'
 complete -c lekalo -n '__fish_seen_subcommand_from solve' -l json -d 'machine-readable output'
+complete -c lekalo -n '__fish_seen_subcommand_from solve' -l graph -d 'how the system is taken apart: blocks, rigid parts'
 complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -s h -l help -d 'Print this help message and exit'
 complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l set -x -d 'value of a parameter, e.g. --set w=4; repeatable'
 complete -c lekalo -n '__fish_seen_subcommand_from evaluate' -l allow-external -d 'let the scene run code from outside the program: libraries and commands that it names'

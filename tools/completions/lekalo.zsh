@@ -124,7 +124,8 @@ case $command in
       ':scene:_files -g "*.(yaml|yml|json)"' \
       '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
       '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
-      '--json[machine-readable output]' ;;
+      '--json[machine-readable output]' \
+      '--graph[how the system is taken apart\: blocks, rigid parts]' ;;
   evaluate)
     _arguments \
       '-h[Print this help message and exit]' '--help[Print this help message and exit]' \

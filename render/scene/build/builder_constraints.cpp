@@ -9,6 +9,7 @@
 #include "geometry/constraints/conditions.h"
 #include "geometry/expression/nearest_name.h"
 #include "render/scene/build/builder.h"
+#include "render/scene/build/constraint_graph.h"
 #include "render/scene/types/sections.h"
 #include "render/scene/values/scalars.h"
 
@@ -273,6 +274,7 @@ class ConstraintReading {
       if (const auto variable = variables_.find(of); variable != variables_.end())
         return put(value_constraint(name, variable->second,
                                     f.has("value") ? f.number("value") : start[static_cast<size_t>(variable->second)]));
+      framework_.fixed.push_back(of);
       return put(fixation(name, point_named(of, "of"), start));
     }
     if (type == "angle") {
@@ -303,15 +305,18 @@ class ConstraintReading {
     const UnknownPoint a = point_named(pair[0], "between"), b = point_named(pair[1], "between");
     const Start start = system_.start;
     std::vector<Constraint>& all = system_.constraints;
-    if (type == "distance" || type == "point_distance")
+    if (type == "distance" || type == "point_distance") {
       all.push_back(distance_between(name, a, b, positive_of(f, "value")));
-    else if (type == "coordinate_distance") {
+      framework_.bars.emplace_back(pair[0], pair[1]);
+    } else if (type == "coordinate_distance") {
       if (!f.has("along")) throw FieldError("along", "'coordinate_distance' needs 'along'", "x, y or z");
       all.push_back(coordinate_distance(name, a, b, f.text("along")[0] - 'x', number_of(f, "value"), start));
     } else if (kHeld.contains(type))
       all.push_back(coordinate_distance(name, a, b, kHeld.at(type), 0, start));
-    else
+    else {
       all.push_back(coincidence(name, a, b));
+      framework_.joined.emplace_back(pair[0], pair[1]);
+    }
     return true;
   }
 
@@ -394,16 +399,33 @@ class ConstraintReading {
     for (const auto& [name, pose] : bodies_) result.poses[name] = map_of(pose, p);
     result.unknowns = static_cast<int>(p.size());
     result.formal_freedom = result.unknowns - solution.equations;
-    find_free(solution, result);
+    if (result.unknowns > 0) {
+      const Eigen::MatrixXd velocities = allowed_velocities(system_, solution);
+      find_free(solution, velocities, result);
+      result.graph = constraint_graph(system_, solution, names_of_unknowns(), points_, framework_, velocities);
+    }
     result.solution = std::move(solution);
     return result;
   }
 
+  std::vector<std::string> names_of_unknowns() const {
+    std::vector<std::string> names(system_.start.size());
+    for (const auto& [name, point] : points_) {
+      for (int k = 0; k < 3; ++k)
+        if (point.coordinates[k] >= 0) names[static_cast<size_t>(point.coordinates[k])] = name + "_" + "xyz"[k];
+      if (point.curve) names[static_cast<size_t>(point.parameter)] = name + ".t";
+    }
+    for (const auto& [name, variable] : variables_) names[static_cast<size_t>(variable)] = name;
+    for (const auto& [name, pose] : bodies_)
+      for (int k = 0; k < 6; ++k)
+        names[static_cast<size_t>(pose.first + k)] =
+            fmt::format("{}.{}_{}", name, k < 3 ? "turn" : "shift", "xyz"[k % 3]);
+    return names;
+  }
+
   // By the null space of the Jacobian: the velocities that all conditions allow.
-  void find_free(const ConstraintSolution& solution, ConstraintReport& result) const {
-    const int n = result.unknowns;
-    if (n == 0) return;
-    const Eigen::MatrixXd null_space = allowed_velocities(system_, solution);
+  void find_free(const ConstraintSolution& solution, const Eigen::MatrixXd& null_space,
+                 ConstraintReport& result) const {
     const auto moves = [&](int unknown) { return null_space.row(unknown).norm() > 1e-7; };
     for (const auto& [name, point] : points_) {
       const bool free = point.curve ? moves(point.parameter)
@@ -459,6 +481,7 @@ class ConstraintReading {
   std::map<std::string, int> variables_;
   std::map<std::string, UnknownPose> bodies_;
   std::map<std::string, Marker> markers_;
+  PlaneFramework framework_;
   bool failed_ = false;
 };
 
