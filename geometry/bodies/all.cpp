@@ -33,6 +33,7 @@
   X(shell_body_type)           \
   X(moved_faces_type)          \
   X(deformed_face_type)        \
+  X(triangulated_face_type)    \
   X(refilleted_body_type)      \
   X(drafted_faces_type)        \
   X(deleted_faces_type)        \

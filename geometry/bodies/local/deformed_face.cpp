@@ -5,32 +5,14 @@
 
 #include <algorithm>
 
+#include "geometry/bodies/local/face_rectangle.h"
 #include "geometry/bodies/local/face_replacement.h"
 #include "geometry/bodies/topology/selection.h"
 #include "geometry/surfaces/derived/deformed.h"
-#include "geometry/surfaces/derived/extended.h"
 
 namespace lekalo::geometry {
 
 namespace {
-
-// The surface over the rectangle of the face's loops, looking outward.
-SurfacePtr base_of(const Body& body, int number) {
-  const Face& face = body.faces[number];
-  Rectangle domain = face.surface->domain();
-  if (face.trimmed) {
-    Box3 box;
-    for (const int c : body.loops[face.loops[0]].coedges) {
-      const Curve& image = *body.coedges[c].image;
-      for (const CurvePiece& piece : image.pieces())
-        for (int k = 0; k <= 16; ++k) box.include(image.point(piece.domain.lo + piece.domain.width() * k / 16));
-    }
-    domain = {{box.lo.x, box.hi.x}, {box.lo.y, box.hi.y}};
-  }
-  auto base = std::const_pointer_cast<Surface>(extended_to(face.surface, domain));
-  base->set_reversed(face.surface->reversed() == face.forward);
-  return base;
-}
 
 // How far the surface is from the edges of the face.
 double gap_at_border(const Body& body, int number, const Surface& surface) {
@@ -51,7 +33,7 @@ double gap_at_border(const Body& body, int number, const Surface& surface) {
 Body deformed(const Fields& f) {
   const Body& body = *f.body("of");
   const int number = one_called(body, Element::face, f.text("face"), "face");
-  const SurfacePtr surface = deformed_by(base_of(body, number), f, true);
+  const SurfacePtr surface = deformed_by(over_its_rectangle(body, number), f, true);
   if (gap_at_border(body, number, *surface) <= 1e-12 * bounds(body).diameter()) {
     FaceReplacement made;
     made.body = body;
