@@ -1,5 +1,8 @@
 // sum_i w_i |r(t_i) - p_i|^2 + stiffness * integral of |r''|^2 is a sum of squares that are linear in the control
 // points: the integral by Gauss's rule on each span, which is exact. QR decomposition does not square the condition.
+//
+// Cubics that meet with a common tangent alone have sum_j beta_j |r''(T_j+) - r''(T_j-)|^2 beside it (Zavyalov et al.
+// 1985, II.5, problem 7b); large beta_j make them a spline of class C2.
 #include "geometry/curves/interpolation/fit_curve.h"
 
 #include <fmt/format.h>
@@ -22,8 +25,11 @@ constexpr double kSettled = 1e-9;
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-SplineAxis fit_axis(const PointSequence& data, const std::vector<double>& inner, int degree) {
+SplineAxis fit_axis(const PointSequence& data, const std::vector<double>& breaks, const FitOptions& options) {
   const double lo = data.parameters.front(), hi = data.parameters.back();
+  const int degree = options.degree, copies = options.jump_weights.empty() ? 1 : 2;
+  std::vector<double> inner;
+  for (const double t : breaks) inner.insert(inner.end(), copies, t);
   return data.closed ? periodic_axis(degree, inner, hi - lo) : clamped_axis(degree, lo, hi, inner);
 }
 
@@ -32,15 +38,39 @@ struct Rows {
   std::vector<Vec3> right;
 
   void add(const SplineAxis& axis, double t, int order, double scale, const Vec3& value) {
-    const int p = axis.degree();
     const SplineAxis::Place place = axis.place(t);
-    std::vector<double> basis(p + 1);
-    basis_derivative(p, axis.knots(), place.span, place.t, order, basis);
-    for (int m = 0; m <= p; ++m)
-      entries.emplace_back(static_cast<int>(right.size()), (place.span - p + m) % axis.distinct(), scale * basis[m]);
+    add_to_last(axis, place.span, place.t, order, scale);
     right.push_back(scale * value);
   }
+
+  // The jump of the second derivative between two neighbouring spans, which shall be 0.
+  void add_jump(const SplineAxis& axis, int before, int after, double scale) {
+    const auto& knots = axis.knots();
+    add_to_last(axis, after, knots[after], 2, scale);
+    add_to_last(axis, before, knots[before + 1], 2, -scale);
+    right.emplace_back(0);
+  }
+
+ private:
+  void add_to_last(const SplineAxis& axis, int span, double t, int order, double scale) {
+    const int p = axis.degree();
+    std::vector<double> basis(p + 1);
+    basis_derivative(p, axis.knots(), span, t, order, basis);
+    for (int m = 0; m <= p; ++m)
+      entries.emplace_back(static_cast<int>(right.size()), (span - p + m) % axis.distinct(), scale * basis[m]);
+  }
 };
+
+// One weight for all places where spans meet, or one for each.
+void add_jumps(const SplineAxis& axis, const std::vector<double>& weights, Rows& rows) {
+  const auto& knots = axis.knots();
+  std::vector<int> spans;
+  for (int span = axis.degree(); span < axis.degree() + axis.distinct(); ++span)
+    if (knots[span + 1] > knots[span] && knots[span] < axis.domain().hi) spans.push_back(span);
+  if (axis.periodic()) spans.insert(spans.begin(), spans.back());
+  for (size_t k = 0; k + 1 < spans.size(); ++k)
+    rows.add_jump(axis, spans[k], spans[k + 1], std::sqrt(weights.size() == 1 ? weights[0] : weights[k]));
+}
 
 void add_stiffness(const SplineAxis& axis, double stiffness, Rows& rows) {
   const auto& knots = axis.knots();
@@ -60,6 +90,7 @@ NurbsCurve fitted(const SplineAxis& axis, std::span<const Vec3> points, const st
   for (size_t i = 0; i < points.size(); ++i)
     rows.add(axis, parameters[i], 0, options.weights.empty() ? 1 : std::sqrt(options.weights[i]), points[i] - origin);
   if (options.stiffness > 0 && options.degree > 1) add_stiffness(axis, options.stiffness, rows);
+  if (!options.jump_weights.empty()) add_jumps(axis, options.jump_weights, rows);
   const int count = axis.distinct(), height = static_cast<int>(rows.right.size());
   Sparse matrix(height, count);
   matrix.setFromTriplets(rows.entries.begin(), rows.entries.end());
@@ -97,6 +128,17 @@ double nearer_parameter(const NurbsCurve& curve, const Vec3& p, double t) {
   return glm::length(curve.point(moved) - p) < glm::length(off) ? moved : t;
 }
 
+void check_jump_weights(const FitOptions& options, size_t joints) {
+  const std::vector<double>& weights = options.jump_weights;
+  if (weights.empty()) return;
+  if (options.degree != 3) throw FieldError("jump_weights", "only cubics have them", "degree: 3");
+  if (weights.size() != 1 && weights.size() != joints)
+    throw FieldError("jump_weights", fmt::format("{} weights do not fit {} joints of pieces", weights.size(), joints),
+                     "one for all, or one for each");
+  for (size_t i = 0; i < weights.size(); ++i)
+    if (!(weights[i] >= 0)) throw FieldError("jump_weights", fmt::format("weight {} is {}, below 0", i, weights[i]));
+}
+
 void check_options(const PointSequence& data, const FitOptions& options) {
   if (!options.weights.empty() && options.weights.size() != data.points.size())
     throw FieldError("weights", fmt::format("{} weights do not fit {} points", options.weights.size(), data.size()));
@@ -112,7 +154,8 @@ struct Fit {
 
 Fit fit(const PointSequence& data, const std::vector<double>& knots, const FitOptions& options) {
   check_options(data, options);
-  const SplineAxis axis = fit_axis(data, knots, options.degree);
+  check_jump_weights(options, knots.size());
+  const SplineAxis axis = fit_axis(data, knots, options);
   std::vector<double> parameters(data.parameters.begin(), data.parameters.begin() + data.size());
   Fit result{fitted(axis, data.points, parameters, options), parameters};
   double sum = sum_of_squares(result.curve, data.points, parameters);
@@ -168,7 +211,10 @@ NurbsCurve fit_within(const PointSequence& data, double tolerance, const FitOpti
       if (off > tolerance && end - begins[k] > 1) halves.push_back((begins[k] + end) / 2);
     }
     if (largest <= tolerance) return found.curve;
-    const int control_points = static_cast<int>(begins.size() + halves.size()) + (data.closed ? 0 : options.degree);
+    const int spans = static_cast<int>(begins.size() + halves.size());
+    // Jumps that weigh nothing let each piece bend freely.
+    const bool is_free = !options.jump_weights.empty() && options.jump_weights[0] == 0;
+    const int control_points = (is_free ? 2 : 1) * (spans - 1) + (data.closed ? 1 + is_free : options.degree + 1);
     if (halves.empty() || (control_points > data.size() && options.stiffness == 0))
       throw FieldError("tolerance",
                        fmt::format("not reached: with {} spans a point is still {} away", begins.size(), largest),
@@ -192,6 +238,11 @@ TypeDeclaration fit_curve_type() {
       .optional("weights", numbers(), "weight of each squared distance; all 1 when left out")
       .field("stiffness", number().non_negative(),
              "weight of the integral of the squared second derivative beside the sum of squared distances", "0")
+      .optional(
+          "jump_weights", numbers(),
+          "cubic pieces have common tangents alone where they meet; beside the sum of squared distances stand the "
+          "squared jumps of the second derivative with this weight: one for all joints, or one for each (closed: "
+          "the start first). 0: pieces bend freely; ever larger: as without")
       .field("passes", integer().between(0, 10000), "how often parameters of points move to where the curve is nearest",
              "0")
       .shows({"control_polygon", "knots"})
@@ -201,7 +252,10 @@ TypeDeclaration fit_curve_type() {
         const std::vector<double> parameters = point_parameters(f.knots("knots"), points, closed);
         const PointSequence data{points, parameters, closed};
         const FitOptions options{f.integer("degree"), f.has("weights") ? f.numbers("weights") : std::vector<double>(),
-                                 f.number("stiffness"), f.integer("passes")};
+                                 f.number("stiffness"), f.integer("passes"),
+                                 f.has("jump_weights") ? f.numbers("jump_weights") : std::vector<double>()};
+        if (f.has("tolerance") && options.jump_weights.size() > 1)
+          throw FieldError("jump_weights", "within a tolerance the number of joints is not known before", "one weight");
         const int said = f.has("spans") + f.has("breaks") + f.has("tolerance");
         if (said != 1)
           throw FieldError(said == 0         ? "points"

@@ -2,10 +2,16 @@
 //   b_i = f_i + (h_i - h_{i-1})/3 m - h_{i-1} h_i / 6 M,   b_{i+-1} alike  (Zavyalov et al. 1985, 89),
 // h_i = t_{i+1} - t_i. Estimates of three neighbours for m, and for M (order 4) or 0 in its place (order 2), make a
 // spline near the points. Beyond the ends steps go on as the last one.
+//
+// Of many noisy points the values at coarse knots T_j are those of the parabolas nearest to the points between T_{j-1}
+// and T_{j+1} (the same, II.5, problem 7a).
 #include "geometry/curves/interpolation/local_spline.h"
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
+
+#include "geometry/curves/interpolation/fit_curve.h"
 #include "geometry/curves/interpolation/lagrange_curve.h"
 #include "geometry/curves/interpolation/point_parameters.h"
 
@@ -62,10 +68,67 @@ NurbsCurve closed_local_spline(const PointSequence& data, int order) {
   return NurbsCurve(SplineAxis(3, std::move(knots), Extension::periodic), points);
 }
 
+// Value at t of the parabola nearest to the points from `begin` to before `end`.
+Vec3 value_of_parabola(const PointSequence& data, int begin, int end, double t, double scale) {
+  Eigen::MatrixX3d powers(end - begin, 3), right(end - begin, 3);
+  const Vec3 origin = data.point(begin);
+  for (int i = begin; i < end; ++i) {
+    const double x = (data.parameter(i) - t) / scale;
+    const Vec3 p = data.point(i) - origin;
+    powers.row(i - begin) << 1, x, x * x;
+    right.row(i - begin) << p.x, p.y, p.z;
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixX3d> factors(powers);
+  const Eigen::Matrix3d solution = factors.solve(right);
+  return origin + Vec3(solution(0, 0), solution(0, 1), solution(0, 2));
+}
+
+}  // namespace
+
+std::vector<Vec3> local_means(const PointSequence& data, std::span<const double> knots) {
+  const int last = static_cast<int>(knots.size()) - 1, count = last + (data.closed ? 0 : 1);
+  const double period = knots.back() - knots.front();
+  const auto knot = [&](int j) {
+    return data.closed && j < 0 ? knots[last + j] - period : knots[std::clamp(j, 0, last)];
+  };
+  std::vector<Vec3> values;
+  int begin = data.closed ? -data.size() : 0;
+  const int beyond = data.closed ? 2 * data.size() : data.size();
+  for (int j = 0; j < count; ++j) {
+    while (begin < beyond && data.parameter(begin) < knot(j - 1)) ++begin;
+    int end = begin;
+    while (end < beyond && data.parameter(end) <= knot(j + 1)) ++end;
+    if (end - begin < 3)
+      throw FieldError("spans",
+                       fmt::format("a parabola needs 3 points: between t = {} and {} there are {}", knot(j - 1),
+                                   knot(j + 1), end - begin),
+                       "fewer spans");
+    values.push_back(value_of_parabola(data, begin, end, knot(j), knot(j + 1) - knot(j - 1)));
+  }
+  return values;
+}
+
+namespace {
+
+int least_points(int order, bool closed) { return order == 2 || closed ? 3 : 4; }
+
+// Parameters where so many pieces meet, with both ends of the range.
+std::vector<double> coarse_knots(const PointSequence& data, int spans, int order) {
+  const int values = spans + (data.closed ? 0 : 1), needed = least_points(order, data.closed);
+  if (values < needed)
+    throw FieldError("spans",
+                     fmt::format("{} spans have {} values where they meet; {} are needed", spans, values, needed),
+                     "more spans");
+  std::vector<double> knots = even_knots(data, spans);
+  if (!data.closed) knots.insert(knots.begin(), data.parameters.front());
+  knots.push_back(data.parameters.back());
+  return knots;
+}
+
 }  // namespace
 
 NurbsCurve local_spline(const PointSequence& data, int order) {
-  const int needed = order == 2 || data.closed ? 3 : 4;
+  const int needed = least_points(order, data.closed);
   if (data.size() < needed)
     throw FieldError("points", fmt::format("a local spline of order {} needs at least {} points, not {}", order, needed,
                                            data.size()));
@@ -108,17 +171,27 @@ TypeDeclaration local_spline_type() {
           "second: smoother than its points, at the ends of open curves through them; fourth: as near as a cubic can "
           "be, exact for points of cubics",
           "fourth")
+      .optional("spans", integer().at_least(2),
+                "pieces, of about as many of the points each, which the curve then only passes by: in place of points "
+                "it takes, where pieces meet, the values of parabolas by least squares through the points of the two "
+                "pieces beside")
       .field("passes", integer().between(0, 100000), "how often points are replaced by points of the curve", "0")
       .optional("corridor", numbers(),
                 "how far each coordinate of a point may move in passes: one length, or one for each point")
       .shows({"control_polygon", "knots"})
       .built_by([](const Fields& f) {
-        const std::vector<Vec3>& points = f.points("points");
+        std::vector<Vec3> points = f.points("points");
         const bool closed = f.boolean("closed");
-        const std::vector<double> parameters = point_parameters(f.knots("knots"), points, closed);
+        std::vector<double> parameters = point_parameters(f.knots("knots"), points, closed);
+        const int order = f.text("order") == "second" ? 2 : 4;
+        if (f.has("spans")) {
+          const PointSequence all{points, parameters, closed};
+          const std::vector<double> knots = coarse_knots(all, f.integer("spans"), order);
+          points = local_means(all, knots);
+          parameters = knots;
+        }
         std::vector<double> half_widths = f.has("corridor") ? f.numbers("corridor") : std::vector<double>();
         if (half_widths.size() == 1) half_widths.assign(points.size(), half_widths[0]);
-        const int order = f.text("order") == "second" ? 2 : 4;
         const std::vector<Vec3> smooth =
             smoothed_points({points, parameters, closed}, order, f.integer("passes"), half_widths);
         return local_spline({smooth, parameters, closed}, order);

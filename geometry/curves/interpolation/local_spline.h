@@ -17,4 +17,10 @@ NurbsCurve local_spline(const PointSequence& data, int order);
 std::vector<Vec3> smoothed_points(const PointSequence& data, int order, int passes,
                                   std::span<const double> half_widths);
 
+// Values at increasing coarse knots, from the first parameter to the last (closed: the end of the period), by parabolas
+// that are the nearest to the points between the knots beside, the ends of that range included. One for each knot but
+// the last of a closed curve. Throws FieldError (field spans) where a range has fewer than 3 points (Zavyalov et al.
+// 1985, II.5).
+std::vector<Vec3> local_means(const PointSequence& data, std::span<const double> knots);
+
 }  // namespace lekalo::geometry

@@ -87,6 +87,79 @@ TEST(FitCurve, StiffnessDrawsItStraight) {
   for (const double t : {0.3, 2., 5.}) EXPECT_LE(glm::length(fit.evaluate(t, 2).d[2]), 1e-9);
 }
 
+// The largest jump of the second derivative at knots.
+double largest_jump(const NurbsCurve& curve, const List& knots) {
+  double largest = 0;
+  for (const double t : knots) {
+    const double before = curve.domain().lo == t ? curve.domain().hi : t;
+    largest =
+        std::max(largest, glm::length(curve.evaluate(t, 2).d[2] - curve.evaluate(std::nextafter(before, -1), 2).d[2]));
+  }
+  return largest;
+}
+
+// Zavyalov et al. 1985, II.5, problem 7b: with large weights of the jumps the spline of class C2, with none the best of
+// class C1; between them the sum of squares and jumps is smallest.
+TEST(FitCurve, WeighsJumpsOfTheSecondDerivative) {
+  for (const bool closed : {false, true}) {
+    const Data data = noisy(60, 0.1, closed);
+    const List knots = even_knots(data.sequence(closed), 5);
+    const NurbsCurve smooth = fit_curve(data.sequence(closed), knots, {});
+    const NurbsCurve stiff = fit_curve(data.sequence(closed), knots, {.jump_weights = {1e10}});
+    for (double t = 0; t < 6; t += 0.25) EXPECT_LE(distance(stiff.point(t), smooth.point(t)), 1e-8);
+    double last_sum = 0, last_jump = kInfinity;
+    for (const double weight : {0., 1e-3, 0.1, 10.}) {
+      const NurbsCurve fit = fit_curve(data.sequence(closed), knots, {.jump_weights = {weight}});
+      EXPECT_GE(sum_of_squares(fit, data), last_sum - 1e-13);
+      EXPECT_LE(largest_jump(fit, knots), last_jump + 1e-9);
+      last_sum = sum_of_squares(fit, data), last_jump = largest_jump(fit, knots);
+      for (const double t : knots) {
+        const double before = std::nextafter(fit.domain().lo == t ? fit.domain().hi : t, -1);
+        EXPECT_LE(glm::length(fit.evaluate(t, 1).d[1] - fit.evaluate(before, 1).d[1]), 1e-11);
+      }
+      EXPECT_EQ(fit.axis().distinct(), closed ? 10 : 12);
+      checks::check_pieces(fit);
+    }
+  }
+}
+
+// The gradient of the sum of squares and weighted jumps vanishes: a control point moved either way makes it larger.
+TEST(FitCurve, WithWeightedJumpsHasTheSmallestSum) {
+  for (const bool closed : {false, true}) {
+    const Data data = noisy(40, 0.2, closed);
+    const List knots = even_knots(data.sequence(closed), 4);
+    List weights;
+    for (size_t j = 0; j < knots.size(); ++j) weights.push_back(0.02 * (j + 1));
+    const NurbsCurve fit = fit_curve(data.sequence(closed), knots, {.jump_weights = weights});
+    const auto sum = [&](const NurbsCurve& curve) {
+      double all = sum_of_squares(curve, data);
+      for (size_t j = 0; j < knots.size(); ++j) all += weights[j] * std::pow(largest_jump(curve, {knots[j]}), 2);
+      return all;
+    };
+    for (int i = 0; i < fit.axis().distinct(); ++i) {
+      double sums[2];
+      for (const int side : {0, 1}) {
+        Points moved;
+        for (int j = 0; j < fit.axis().distinct(); ++j) moved.push_back(Vec3(fit.points()[j]));
+        moved[i].x += side == 0 ? 1e-3 : -1e-3;
+        sums[side] = sum(NurbsCurve(fit.axis(), moved));
+        EXPECT_GT(sums[side], sum(fit));
+      }
+      EXPECT_NEAR(sums[0], sums[1], 1e-10);
+    }
+  }
+}
+
+TEST(FitCurve, RefusesJumpWeightsThatDoNotFit) {
+  const Data data = noisy(40, 0.1, false);
+  const auto refuses = [&](const FitOptions& options) {
+    EXPECT_THROW(fit_curve(data.sequence(), {1, 2, 3}, options), FieldError);
+  };
+  refuses({.degree = 4, .jump_weights = {1}});
+  refuses({.jump_weights = {1, 2}});
+  refuses({.jump_weights = {1, 2, -1}});
+}
+
 // Zavyalov et al. 1985, II.5e: chord lengths of points of a circle with uneven steps are not its angles.
 TEST(FitCurve, MovingParametersBringsItNearer) {
   Points points;

@@ -39,10 +39,11 @@ List jumps(const NurbsCurve& curve, const List& t, int k) {
 }
 
 // Kuhn, Tucker: inside the corridor no jump, at its borders one that pulls outwards (Zavyalov et al. 1985, 65).
-void check_optimal(const Points& points, const List& t, const List& half_widths, double period = 0) {
+void check_optimal(const Points& points, const List& t, const List& half_widths, double period = 0,
+                   const EndTangents& ends = {}) {
   List parameters = t;
   if (period > 0) parameters.push_back(t[0] + period);
-  const NurbsCurve curve = corridor_spline(points, parameters, period > 0, half_widths);
+  const NurbsCurve curve = corridor_spline(points, parameters, period > 0, half_widths, ends);
   for (int k = 0; k < 3; ++k) {
     const List d = jumps(curve, t, k);
     double largest = 0, size = 0, step = kInfinity;
@@ -79,6 +80,65 @@ TEST(CorridorSpline, IsOptimal) {
   }
 }
 
+// With slopes at one end or both they are kept, and the conditions are the same.
+TEST(CorridorSpline, WithEndTangentsIsOptimal) {
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int trial = 0; trial < 40; ++trial) {
+    Points points;
+    List t, widths;
+    for (int i = 0; i < 3 + 3 * (trial / 4); ++i) {
+      t.push_back((i > 0 ? t.back() : 0) + 1.1 + uniform(random));
+      points.push_back({t.back(), uniform(random), std::sin(t.back()) + 0.1 * uniform(random)});
+      widths.push_back(i % 7 == 3 ? 0 : 0.3 * (1.1 + uniform(random)));
+    }
+    const Vec3 first(1, 2 * uniform(random), 1), last(0.5, 2 * uniform(random), 0);
+    EndTangents ends;
+    if (trial % 4 != 0) ends.start = first;
+    if (trial % 4 != 1) ends.end = last;
+    check_optimal(points, t, widths, 0, ends);
+    const NurbsCurve curve = corridor_spline(points, t, false, widths, ends);
+    if (ends.start) {
+      EXPECT_LE(glm::length(curve.evaluate(t.front(), 1).d[1] - first), 1e-12);
+    }
+    if (ends.end) {
+      EXPECT_LE(glm::length(curve.evaluate(t.back(), 1).d[1] - last), 1e-12);
+    }
+  }
+}
+
+// Whatever fits in a wide corridor: the second derivative that both slopes ask for is the same everywhere.
+TEST(CorridorSpline, OfTwoSlopesIsAParabolaWhereItFits) {
+  const Points points = {{0, 0, 0}, {1, 1, 0}, {2, 0, 0}, {3, 1, 0}};
+  const List t = {0, 1, 2, 3};
+  const EndTangents ends{Vec3(1, 0, 0), Vec3(1, 3, 0)};
+  const NurbsCurve curve = corridor_spline(points, t, false, List(4, 10), ends);
+  for (const double at : {0., 0.7, 2., 3.}) {
+    EXPECT_NEAR(curve.point(at).y, at * at / 2 - 1.25, 1e-14);
+    EXPECT_NEAR(curve.point(at).x, at, 1e-14);
+  }
+}
+
+// Lines that touch bounds without pulling at them: points that only rounding holds do not keep the search going.
+TEST(CorridorSpline, FindsLinesThatTouchTheCorridor) {
+  const List t = {0, 1, 2, 3, 4};
+  for (const double slope : {-2., 0., 0.3, 1. / 3}) {
+    Points points;
+    for (int i = 0; i < 5; ++i) points.push_back({t[i], slope * t[i] + (i % 2 == 0 ? 0.1 : -0.1), 0});
+    const Vec3 along(1, slope, 0);
+    for (const EndTangents& ends :
+         {EndTangents{}, EndTangents{along, {}}, EndTangents{{}, along}, EndTangents{along, along}}) {
+      const NurbsCurve curve = corridor_spline(points, t, false, List(5, 0.1), ends);
+      EXPECT_LE(energy(curve, t), 1e-24);
+    }
+  }
+}
+
+TEST(CorridorSpline, RefusesTangentsAtEndsThatAClosedCurveHasNot) {
+  const Points points = {{0, 0, 0}, {1, 1, 0}, {2, 0, 0}};
+  EXPECT_THROW(corridor_spline(points, List{0, 1, 2, 3}, true, List(3, 0.1), {Vec3(1, 0, 0), {}}), FieldError);
+}
+
 TEST(CorridorSpline, OfTheBladeSectionHasTheSmallestIntegral) {
   const SplineEnd natural{EndRule::natural, {}, {}};
   EXPECT_NEAR(energy(spline_curve(blade_points(), kBladeT, 3, natural, natural), kBladeT), 0.08923, 5e-6);
@@ -109,6 +169,13 @@ TEST(SmoothingSpline, IsStationary) {
   const List d = jumps(curve, kBladeT, 1);
   for (size_t i = 0; i < kBladeT.size(); ++i)
     EXPECT_NEAR(weights[i] * (curve.point(kBladeT[i]).y - kBladeZ[i]) + stiffness * d[i], 0, 1e-9);
+  const Vec3 slope(1, 2, 0);
+  const NurbsCurve clamped = smoothing_spline(blade_points(), kBladeT, false, stiffness, weights, {slope, slope});
+  const List c = jumps(clamped, kBladeT, 1);
+  for (size_t i = 0; i < kBladeT.size(); ++i)
+    EXPECT_NEAR(weights[i] * (clamped.point(kBladeT[i]).y - kBladeZ[i]) + stiffness * c[i], 0, 1e-9);
+  EXPECT_NEAR(clamped.evaluate(kBladeT.front(), 1).d[1].y, 2, 1e-12);
+  EXPECT_NEAR(clamped.evaluate(kBladeT.back(), 1).d[1].y, 2, 1e-12);
   const NurbsCurve closed = smoothing_spline(blade_points(), closed_t, true, stiffness, weights);
   const List e = jumps(closed, kBladeT, 1);
   for (size_t i = 0; i < kBladeT.size(); ++i)
@@ -149,6 +216,42 @@ TEST(LocalSpline, OfOrderTwoInterpolatesItsEnds) {
   const NurbsCurve curve = local_spline({blade_points(), kBladeT, false}, 2);
   EXPECT_LE(distance(curve.point(kBladeT.front()), blade_points().front()), 1e-13);
   EXPECT_LE(distance(curve.point(kBladeT.back()), blade_points().back()), 1e-13);
+}
+
+// Zavyalov et al. 1985, II.5, problem 7a: parabolas are found again from any of their points; of noise around a wave
+// the coarse values keep less than its points have.
+TEST(LocalSpline, MeansOfManyPoints) {
+  const auto parabola = [](double t) { return Vec3(1e6 + t, 2 - t * t, 3 * t * t - t); };
+  Points points;
+  List t;
+  for (int i = 0; i <= 40; ++i) t.push_back(0.1 * i + 0.02 * (i % 3)), points.push_back(parabola(t.back()));
+  const List knots = {0, 0.7, 1.9, 3, t.back()};
+  const Points values = local_means({points, t, false}, knots);
+  for (size_t j = 0; j < knots.size(); ++j) EXPECT_LE(distance(values[j], parabola(knots[j])), 1e-9);
+
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> uniform(-0.3, 0.3);
+  Points noisy;
+  List angles, coarse;
+  double noise = 0, left = 0;
+  for (int i = 0; i <= 400; ++i) angles.push_back(kTwoPi * i / 400);
+  for (int j = 0; j <= 16; ++j) coarse.push_back(kTwoPi * j / 16);
+  for (int i = 0; i < 400; ++i) {
+    const double off = uniform(random);
+    noise += off * off / 400;
+    noisy.push_back({std::cos(angles[i]), std::sin(angles[i]) + off, 0});
+  }
+  const Points means = local_means({noisy, angles, true}, coarse);
+  ASSERT_EQ(means.size(), 16);
+  for (int j = 0; j < 16; ++j) left += std::pow(means[j].y - std::sin(coarse[j]), 2) / 16;
+  // The value of a parabola by 51 evenly spread points has 9/4 / 51 of their variance; the wave's own part is below it.
+  EXPECT_LE(left, 3 * 9. / 4 / 51 * noise);
+  for (int j = 0; j < 16; ++j) EXPECT_NEAR(means[j].x, std::cos(coarse[j]), 1e-3);
+}
+
+TEST(LocalSpline, RefusesMeansOfTooFewPoints) {
+  const List t = {0, 1, 2, 3};
+  EXPECT_THROW(local_means({Points(4, Vec3(0)), t, false}, List{0, 0.5, 1.5, 3}), FieldError);
 }
 
 // 47 passes in the corridor come within 0.008 of the printed column.
