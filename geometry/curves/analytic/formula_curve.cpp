@@ -24,7 +24,8 @@ const std::vector<std::string> kVariables{"t"};
 
 }  // namespace
 
-FormulaCurve::FormulaCurve(PointFormulas point_formulas, const Interval& domain, bool closed)
+FormulaCurve::FormulaCurve(PointFormulas point_formulas, const Interval& domain, bool closed,
+                           const std::optional<RationalLaw>& law)
     : point_(std::move(point_formulas)), domain_(domain) {
   if (!(domain.width() > 0 && domain.width() < kInfinity))
     throw FieldError("domain", "the domain of a curve must be finite and not empty");
@@ -43,6 +44,9 @@ FormulaCurve::FormulaCurve(PointFormulas point_formulas, const Interval& domain,
   closed_ = closed;
   size_ = size;
   stretches_ = smooth_stretches(point_, domain);
+  if (!law) return;
+  rational_ = rational_form(point_, *law, domain);
+  if (rational_ && closed) rational_->form.points.back() = rational_->form.points.front();
 }
 
 CurveJet FormulaCurve::evaluate(double t, int order) const {
@@ -68,7 +72,13 @@ CurveEnclosure FormulaCurve::enclose(const Interval& whole_t, int order) const {
   return whole;
 }
 
+std::optional<NurbsCurveForm> FormulaCurve::as_nurbs() const {
+  if (!rational_ || rational_->speed != 1) return std::nullopt;
+  return rational_->form;
+}
+
 std::vector<CurvePiece> FormulaCurve::pieces() const {
+  if (const auto form = as_nurbs()) return bezier_pieces(*form, domain_);
   std::vector<CurvePiece> result;
   for (const Interval& t : stretches_) {
     CurvePiece piece;

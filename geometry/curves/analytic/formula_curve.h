@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/curve.h"
+#include "geometry/curves/analytic/rational_form.h"
 #include "geometry/point_formulas.h"
 
 namespace lekalo::geometry {
@@ -13,7 +14,9 @@ class FormulaCurve final : public Curve {
  public:
   // The formulas are bound to one variable, t. `closed`: r(lo) = r(hi), and the parameter wraps. Throws FieldError for
   // an empty or infinite domain, a formula that has no value in it, or ends that do not meet.
-  FormulaCurve(PointFormulas point, const Interval& domain, bool closed = false);
+  // `law`: that the formulas are rational, where it is known.
+  FormulaCurve(PointFormulas point, const Interval& domain, bool closed = false,
+               const std::optional<RationalLaw>& law = {});
 
   Interval domain() const override { return domain_; }
   double period() const override { return closed_ ? domain_.width() : 0; }
@@ -21,6 +24,10 @@ class FormulaCurve final : public Curve {
   CurveEnclosure enclose(const Interval& t, int order) const override;
   int enclosure_order() const override { return kMaxCurveEnclosureOrder; }
   std::vector<CurvePiece> pieces() const override;
+  // Of rational formulas of t, or of cosines and sines of t itself.
+  std::optional<NurbsCurveForm> as_nurbs() const override;
+  // Of all rational ones.
+  const std::optional<RationalForm>& rational() const { return rational_; }
   CurvePtr continued(const Interval& domain) const override {
     return std::make_shared<FormulaCurve>(point_, domain, false);
   }
@@ -30,6 +37,7 @@ class FormulaCurve final : public Curve {
   Interval domain_;
   bool closed_ = false;  // set once the ends are known to meet
   std::vector<Interval> stretches_;
+  std::optional<RationalForm> rational_;
   double size_ = 0;  // of what the formulas gave where they were tried
 };
 

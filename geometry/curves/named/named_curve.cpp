@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/curves/analytic/formula_curve.h"
+#include "geometry/curves/named/preset_laws.h"
 #include "geometry/curves/named/presets.h"
 
 namespace lekalo::geometry {
@@ -36,11 +37,17 @@ std::string list_of_presets() {
   return text;
 }
 
-// 2 pi q with b/a = p/q.
-double period(double a, double b) {
+// The least q with b/a = p/q; 0 where there is none.
+int turns(double a, double b) {
   for (int q = 1; q <= kMostTurns; ++q)
-    if (std::abs(b / a * q - std::round(b / a * q)) <= kWhole) return kTwoPi * q;
-  throw FieldError("domain", "the curve never closes: b/a is no fraction of small numbers", "give a domain of t");
+    if (std::abs(b / a * q - std::round(b / a * q)) <= kWhole) return q;
+  return 0;
+}
+
+double period(int turns) {
+  if (turns == 0)
+    throw FieldError("domain", "the curve never closes: b/a is no fraction of small numbers", "give a domain of t");
+  return kTwoPi * turns;
 }
 
 const Preset& chosen(const std::string& name, const Fields& f, Constants& constants) {
@@ -59,13 +66,16 @@ FormulaCurve named_curve(const Fields& f) {
   const Preset& preset = chosen(f.text("preset"), f, constants);
   if (f.has("a") && f.number("a") == 0) throw FieldError("a", "the size of the curve is zero");
   const bool is_whole = !f.has("domain");
-  if (is_whole && preset.rolls) constants.push_back({"period", period(constants[0].value, constants[1].value)});
+  const int turns_to_close = preset.rolls ? turns(constants[0].value, constants[1].value) : 1;
+  constants.push_back({"turns", static_cast<double>(turns_to_close)});
+  if (is_whole && preset.rolls) constants.push_back({"period", period(turns_to_close)});
   if (!preset.exponent.empty()) constants.push_back({"exponent", preset_value(preset.exponent, constants)});
   const Interval domain =
       is_whole ? Interval(preset_value(preset.from, constants), preset_value(preset.to, constants)) : f.range("domain");
   const auto of_t = [&](std::string_view text) { return formula_of(std::string(text), {"t"}, constants); };
   return FormulaCurve(PointFormulas({of_t(preset.first), of_t(preset.second), of_t("0")}, preset.coordinates, {"t"}),
-                      domain, is_whole && preset.is_closed);
+                      domain, is_whole && preset.is_closed,
+                      turns_to_close > 0 ? rational_law(preset.name, constants) : std::nullopt);
 }
 
 }  // namespace
@@ -73,8 +83,8 @@ FormulaCurve named_curve(const Fields& f) {
 TypeDeclaration named_curve_type() {
   TypeDeclaration type = declare(
       Category::curve, "named_curve",
-      fmt::format("Plane curve of the collection of curves that have names. Presets, and their parameters when left "
-                  "out: {}.",
+      fmt::format("Plane curve of the collection of curves that have names; rational ones have an exact NURBS form. "
+                  "Presets, and their parameters when left out: {}.",
                   list_of_presets()));
   type.field("preset", choice(names()), "which curve");
   for (const std::string& name : parameter_names(presets()))

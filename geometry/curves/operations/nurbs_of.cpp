@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/curves/analytic/formula_curve.h"
 #include "geometry/curves/operations/curve_parts.h"
 #include "geometry/curves/operations/smooth_pieces.h"
 #include "geometry/curves/splines/nurbs_operations.h"
@@ -118,23 +119,29 @@ class Fit {
   double deviation_ = 0;
 };
 
+// The part of a form whose parameter is speed * t over an interval of t.
+NurbsOfCurve exact_part(const NurbsCurveForm& form, double speed, const Interval& part) {
+  NurbsCurveForm affine{form.degree, form.knots, form.points, {}};
+  // A parameter between knots that a map tells: the rational one of the same point. The part's ends keep their own.
+  const auto rational = [&](double t) {
+    const double s = speed * t;
+    for (const ParameterMap& map : form.maps)
+      if (s > map.lo && s < map.hi) return map.rational(s);
+    return s;
+  };
+  const Interval domain = affine.domain();
+  const NurbsCurveForm cut = clamped_part(affine, {domain.clamp(rational(part.lo)), domain.clamp(rational(part.hi))});
+  return {cut.domain() == part ? cut : reparametrized(cut, part), true, 0};
+}
+
 }  // namespace
 
 NurbsOfCurve nurbs_of(const Curve& curve, const Interval& part, double tolerance) {
   if (!(part.width() > 0 && part.width() < kInfinity))
     throw std::invalid_argument("the curve is not bounded: give a domain");
-  if (const auto form = curve.as_nurbs()) {
-    NurbsCurveForm affine{form->degree, form->knots, form->points, {}};
-    // A parameter between knots that a map tells: the rational one of the same point. The part's ends keep their own.
-    const auto rational = [&](double t) {
-      for (const ParameterMap& map : form->maps)
-        if (t > map.lo && t < map.hi) return map.rational(t);
-      return t;
-    };
-    const Interval domain = affine.domain();
-    const NurbsCurveForm cut = clamped_part(affine, {domain.clamp(rational(part.lo)), domain.clamp(rational(part.hi))});
-    return {cut.domain() == part ? cut : reparametrized(cut, part), true, 0};
-  }
+  if (const auto form = curve.as_nurbs()) return exact_part(*form, 1, part);
+  const auto* formula = dynamic_cast<const FormulaCurve*>(&curve);
+  if (formula && formula->rational()) return exact_part(formula->rational()->form, formula->rational()->speed, part);
   Fit fit(curve, tolerance);
   for (const Interval& piece : parts_of(curve, part)) fit.add(piece);
   return fit.finish();

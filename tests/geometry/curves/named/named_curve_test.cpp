@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
+#include "geometry/curves/analytic/formula_curve.h"
+#include "geometry/curves/operations/nurbs_of.h"
 #include "geometry/describe.h"
 #include "tests/geometry/curves/curve_checks.h"
 
@@ -39,6 +42,71 @@ TEST(NamedCurve, every_preset_has_derivatives_and_enclosures) {
     checks::check_differences(*curve, {domain.lo + inset, domain.hi - inset}, 3, 1e-6);
     checks::check_enclosures(*curve, {domain.lo + inset, domain.hi - inset});
   }
+}
+
+// Points of the exact form, at the parameters that its maps tell, are those of the formulas.
+void check_rational(const CurvePtr& curve, int degree) {
+  const auto& found = dynamic_cast<const FormulaCurve&>(*curve).rational();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->form.degree, degree);
+  EXPECT_TRUE(nurbs_of(*curve, curve->domain(), 0).exact);
+  double size = 0, farthest = 0;
+  for (const CurvePiece& piece : bezier_pieces(found->form, found->form.domain())) {
+    for (int k = 0; k <= 16; ++k) {
+      const double t = piece.map.natural_of_bezier(k / 16.) / found->speed;
+      std::vector<Vec4> p = piece.points;
+      for (size_t n = p.size() - 1; n > 0; --n)
+        for (size_t i = 0; i < n; ++i) p[i] = (1 - k / 16.) * p[i] + k / 16. * p[i + 1];
+      size = std::max(size, glm::length(curve->point(t)));
+      farthest = std::max(farthest, glm::length(Vec3(p[0]) / p[0].w - curve->point(t)));
+    }
+  }
+  EXPECT_LE(farthest, 1e-13 * size);
+}
+
+// The degrees are those of the algebraic curves, or as many again where angles are the parameter: a cubic with a node
+// has a rational cubic form, a cardioid a quartic one, a deltoid, an astroid, a nephroid twice their frequencies.
+TEST(NamedCurve, rational_ones_are_nurbs_curves) {
+  const std::map<std::string, int> degrees{{"witch_of_agnesi", 3},
+                                           {"folium_of_descartes", 6},
+                                           {"cissoid_of_diocles", 3},
+                                           {"cubic_parabola", 3},
+                                           {"trisectrix_of_maclaurin", 3},
+                                           {"ophiuride", 3},
+                                           {"semicubical_parabola", 3},
+                                           {"strophoid", 3},
+                                           {"trident", 3},
+                                           {"lemniscate_of_bernoulli", 4},
+                                           {"kappa", 4},
+                                           {"cardioid", 4},
+                                           {"conchoid_of_nicomedes", 4},
+                                           {"limacon_of_pascal", 4},
+                                           {"deltoid", 4},
+                                           {"lissajous", 6},
+                                           {"sinusoidal_spiral", 4},
+                                           {"epicycloid", 8},
+                                           {"epitrochoid", 8},
+                                           {"hypocycloid", 8},
+                                           {"hypotrochoid", 6},
+                                           {"astroid", 6},
+                                           {"nephroid", 6},
+                                           {"rose", 4}};
+  for (const std::string& name : named().fields[0].type.choices) {
+    SCOPED_TRACE(name);
+    const CurvePtr curve = built(fields_of(name));
+    if (degrees.count(name)) {
+      check_rational(curve, degrees.at(name));
+      checks::check_pieces(*curve);
+    } else {
+      EXPECT_FALSE(dynamic_cast<const FormulaCurve&>(*curve).rational());
+    }
+  }
+  check_rational(built(fields_of("rose", {{"p", 2}})), 6);
+  check_rational(built(fields_of("rose", {{"p", 2}, {"q", 3}})), 10);
+  check_rational(built(fields_of("sinusoidal_spiral", {{"m", 1. / 3}})), 6);
+  check_rational(built(fields_of("cassini_oval", {{"a", 1.2}, {"c", 1.2}})), 4);
+  check_rational(built(fields_of("trident", {{"a", 2}, {"b", -1}, {"c", 0.3}, {"d", -1}})), 3);
+  EXPECT_FALSE(dynamic_cast<const FormulaCurve&>(*built(fields_of("sinusoidal_spiral", {{"m", 0.4}}))).rational());
 }
 
 TEST(NamedCurve, wrong_parameters_are_told) {
