@@ -53,6 +53,54 @@ def basis(degree, knots, i, t):
         (knots[i + degree + 1] - t) / right * basis(degree - 1, knots, i + 1, t) if right > 0 else 0)
 
 
+def de_boor(curve, t):
+    """The point by repeated affine combination of homogeneous control points."""
+    p, knots = curve["degree"], curve["knots"]
+    span = max(i for i in range(p, len(knots) - p - 1) if knots[i] <= t and knots[i] < knots[i + 1])
+    d = [[x * w for x in point] + [w] for point, w in zip(curve["points"], curve["weights"])][span - p:span + 1]
+    for r in range(1, p + 1):
+        for j in range(p, r - 1, -1):
+            lo, hi = knots[span - p + j], knots[span + 1 + j - r]
+            part = (t - lo) / (hi - lo)
+            d[j] = [(1 - part) * a + part * b for a, b in zip(d[j - 1], d[j])]
+    return [x / d[p][3] for x in d[p][:3]]
+
+
+NAMED = """
+lekalo: 1
+geometry:
+  witch: { type: named_curve, preset: witch_of_agnesi }
+  folium: { type: named_curve, preset: folium_of_descartes }
+  cissoid: { type: named_curve, preset: cissoid_of_diocles }
+  trisectrix: { type: named_curve, preset: trisectrix_of_maclaurin }
+  strophoid: { type: named_curve, preset: strophoid }
+  lemniscate: { type: named_curve, preset: lemniscate_of_bernoulli }
+  kappa: { type: named_curve, preset: kappa }
+  cardioid: { type: named_curve, preset: cardioid }
+  limacon: { type: named_curve, preset: limacon_of_pascal, a: 2, b: 1 }
+  deltoid: { type: named_curve, preset: deltoid }
+  astroid: { type: named_curve, preset: astroid }
+  nephroid: { type: named_curve, preset: nephroid }
+  trifolium: { type: named_curve, preset: rose, p: 3 }
+"""
+# Grezdov, Filippenko 2010; those without an equation there by Lawrence 1972. Of size 1.
+IMPLICIT = {
+    "witch": lambda x, y: (x * x + 1) * y - 1,
+    "folium": lambda x, y: x**3 + y**3 - 3 * x * y,
+    "cissoid": lambda x, y: x * (x * x + y * y) - y * y,
+    "trisectrix": lambda x, y: x * (x * x + y * y) - (3 * x * x - y * y),
+    "strophoid": lambda x, y: y * y * (1 - x) - x * x * (1 + x),
+    "lemniscate": lambda x, y: (x * x + y * y) ** 2 - 2 * (x * x - y * y),
+    "kappa": lambda x, y: (x * x + y * y) * y * y - x * x,
+    "cardioid": lambda x, y: (x * x + y * y + 2 * x) ** 2 - 4 * (x * x + y * y),
+    "limacon": lambda x, y: (x * x + y * y - 2 * x) ** 2 - (x * x + y * y),
+    "deltoid": lambda x, y: (x * x + y * y) ** 2 + 18 * (x * x + y * y) - 27 - 8 * (x**3 - 3 * x * y * y),
+    "astroid": lambda x, y: (x * x + y * y - 1) ** 3 + 27 * x * x * y * y,
+    "nephroid": lambda x, y: ((x * x + y * y - 4) ** 3 - 108 * y * y) / 100,
+    "trifolium": lambda x, y: (x * x + y * y) ** 2 - x**3 + 3 * x * y * y,
+}
+
+
 class ExportNurbs(ProgramTest):
     def check(self, curves, homogeneous_at):
         for name, curve in curves.items():
@@ -81,6 +129,20 @@ class ExportNurbs(ProgramTest):
             return total
 
         self.check(curves, homogeneous_at)
+
+    def test_rational_named_curves(self):
+        """By de Boor's algorithm on what is written: implicit equations and parametric formulas hold."""
+        self.write("scene.yaml", NAMED)
+        self.run_program("export", "scene.yaml", *IMPLICIT, "-o", "curves.json", "--quiet")
+        curves = json.loads(self.bytes_of("curves.json"))["curves"]
+        self.assertEqual([curve["name"] for curve in curves], list(IMPLICIT))
+        for curve in curves:
+            self.assertTrue(curve["exact"], curve["name"])
+            lo, hi = curve["knots"][curve["degree"]], curve["knots"][-1 - curve["degree"]]
+            for k in range(101):
+                x, y, z = de_boor(curve, lo + (hi - lo) * k / 101)
+                self.assertLess(abs(IMPLICIT[curve["name"]](x, y)), 2e-12, (curve["name"], k))
+                self.assertEqual(z, 0)
 
     def test_scipy_reads_them(self):
         try:
