@@ -23,6 +23,21 @@ CALLED = {"object": ["representation", "tessellate"], "intersection_curve": ["in
           "difference": ["subtract"]}
 
 
+def file_of(test):
+    """A row names a file of tests, or one case of it: FILE::Suite.Case."""
+    return test.split("::")[0]
+
+
+def has_case(path, case):
+    """GoogleTest's TEST(Suite, Case), TEST_F, TEST_P; a method of a class of unittest."""
+    suite, name = case.split(".")
+    text = (ROOT / path).read_text()
+    if path.endswith(".py"):
+        body = re.search(rf"^class {suite}\b.*?(?=^\S|\Z)", text, re.MULTILINE | re.DOTALL)
+        return bool(body and re.search(rf"^    def {name}\(", body[0], re.MULTILINE))
+    return bool(re.search(rf"^TEST(_[FP])?\({suite}, {name}\)", text, re.MULTILINE))
+
+
 class Capabilities(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -42,7 +57,9 @@ class Capabilities(ProgramTest):
         for name, row in self.rows():
             for path in row.get("figures", []) + row.get("tests", []):
                 with self.subTest(source=name, id=row["id"], file=path):
-                    self.assertTrue((ROOT / path).is_file())
+                    self.assertTrue((ROOT / file_of(path)).is_file())
+                    if "::" in path:
+                        self.assertTrue(has_case(*path.split("::")))
 
     def test_providers_exist(self):
         types = set(re.findall(r"^  (\w+)  ", self.run_program("types")[0], re.MULTILINE))
@@ -88,15 +105,16 @@ class Capabilities(ProgramTest):
         or as C++ does. Tests of the program run the command; which C++ stands behind a command cannot be told."""
         types = self.kinds_of_types()
         for name, row in self.rows():
-            texts = [(ROOT / path).read_text() for path in row.get("tests", [])]
-            if any(path.endswith(".py") for path in row.get("tests", [])):
+            tests = [file_of(test) for test in row.get("tests", [])]
+            texts = [(ROOT / path).read_text() for path in tests]
+            if any(path.endswith(".py") for path in tests):
                 texts += [(ROOT / path).read_text() for path in row.get("figures", [])]
             for provider in row["provided_by"] if texts else []:
                 if provider in types:
                     stem = re.sub(r"_(curve|surface|body|line|light)$", "", provider)
                     words = [stem, "".join(part.capitalize() for part in stem.split("_")),
                              *CALLED.get(provider, [])]
-                elif all(path.endswith(".py") for path in row["tests"]):
+                elif all(path.endswith(".py") for path in tests):
                     words = [provider.split()[1]] if "/" not in provider else []
                 else:
                     continue
