@@ -198,7 +198,7 @@ SurfaceFigure hedgehog(const SurfacePtr& surface, const Fields& f) {
 }
 
 // Arrows along the axes of a tool that runs along rows of places; none where a row has no tangent.
-SurfaceFigure tool_axes(const SurfacePtr& surface, const Fields& f) {
+SurfaceFigure tool_axis_field(const SurfacePtr& surface, const Fields& f) {
   const Expression& tilt = f.get<Expression>("tilt");
   const bool along_u = f.text("rows") == "u";
   SurfaceFigure figure;
@@ -342,7 +342,7 @@ const std::map<std::string, Draw, std::less<>>& figures() {
                                                                {"principal_directions", principal_directions},
                                                                {"umbilics", umbilic_points},
                                                                {"hedgehog", hedgehog},
-                                                               {"tool_axes", tool_axes},
+                                                               {"tool_axis_field", tool_axis_field},
                                                                {"principal_circles", principal_circles},
                                                                {"dupin_indicatrix", dupin_indicatrix},
                                                                {"tangent_plane", tangent_plane}};
@@ -361,7 +361,7 @@ bool lies_on_surface(const Helper& helper) {
 
 bool leaves_surface(const Helper& helper) {
   return is_surface_figure(helper.type) &&
-         (helper.values.has("u") || helper.type == "hedgehog" || helper.type == "tool_axes");
+         (helper.values.has("u") || helper.type == "hedgehog" || helper.type == "tool_axis_field");
 }
 
 void check_surface_figure(const Surface& surface) {

@@ -2,7 +2,7 @@
 // (Golovanov 2016, 3.1).
 //
 //   curvature_lines, asymptotic_lines, contour_lines, isophotes, reflections   lines on the surface
-//   principal_directions, umbilics, hedgehog, tool_axes                  crosses, points, needles, arrows
+//   principal_directions, umbilics, hedgehog, tool_axis_field                  crosses, points, needles, arrows
 //   principal_circles, dupin_indicatrix, tangent_plane                   at one place
 #pragma once
 

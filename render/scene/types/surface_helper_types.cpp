@@ -105,8 +105,8 @@ TypeDeclaration hedgehog() {
   });
 }
 
-TypeDeclaration tool_axes() {
-  TypeDeclaration type = helper("tool_axes",
+TypeDeclaration tool_axis_field() {
+  TypeDeclaration type = helper("tool_axis_field",
                                 "Axes of a milling tool along rows of a surface, across the row and tilted from the "
                                 "tangent plane (Zavyalov et al. 1985, VII.4).",
                                 "hairline");
@@ -177,20 +177,9 @@ TypeDeclaration voronoi() {
 }  // namespace
 
 std::vector<TypeDeclaration> surface_helper_types() {
-  return {curvature_lines(),
-          asymptotic_lines(),
-          contour_lines(),
-          isophotes(),
-          reflections(),
-          umbilics_helper(),
-          principal_directions(),
-          principal_circles(),
-          dupin_indicatrix(),
-          tangent_plane(),
-          hedgehog(),
-          tool_axes(),
-          circumcircles(),
-          voronoi()};
+  return {curvature_lines(), asymptotic_lines(),     contour_lines(),     isophotes(),        reflections(),
+          umbilics_helper(), principal_directions(), principal_circles(), dupin_indicatrix(), tangent_plane(),
+          hedgehog(),        tool_axis_field(),      circumcircles(),     voronoi()};
 }
 
 }  // namespace lekalo::render

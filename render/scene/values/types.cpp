@@ -183,7 +183,7 @@ std::vector<std::string> helpers_of(Category category) {
   if (category == Category::surface)
     return {"normals",  "curvature_lines",      "asymptotic_lines",  "contour_lines",    "isophotes",
             "umbilics", "principal_directions", "principal_circles", "dupin_indicatrix", "tangent_plane",
-            "hedgehog", "reflections",          "tool_axes"};
+            "hedgehog", "reflections",          "tool_axis_field"};
   if (category == Category::body)
     return {"curvature_lines", "asymptotic_lines", "contour_lines", "isophotes", "reflections"};
   return {};

@@ -226,7 +226,7 @@ TEST(SurfaceFigures, Hedgehog) {
 // Axes of the length that is asked for, across their row, at the tilt to the tangent plane of z = x^2/2.
 TEST(SurfaceFigures, ToolAxes) {
   const std::vector<CurvePtr> arrows =
-      curves_of("trough", "tool_axes", "tilt: 30 + 0*u, length: 2, at_u: [0.4, 0.9], at_v: [-0.5, 0.3]");
+      curves_of("trough", "tool_axis_field", "tilt: 30 + 0*u, length: 2, at_u: [0.4, 0.9], at_v: [-0.5, 0.3]");
   ASSERT_EQ(arrows.size(), 4u);
   for (const CurvePtr& arrow : arrows) {
     const Vec3 foot = arrow->point(0), q = arrow->point(1) - foot;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "render/scene/scene_text.h"
 
@@ -79,6 +80,11 @@ TEST(Manual, ExamplesAreScenes) {
       scene += "panels: { text: { camera: { view: front }, section: { planes: { normal: -y } } } }\n";
     EXPECT_EQ(build_text(scene).said, "") << type.name << "\n" << scene;
   }
+}
+
+TEST(Manual, NamesOfTypesAreUnique) {
+  std::set<std::string> names;
+  for (const TypeDeclaration& type : all_types()) EXPECT_TRUE(names.insert(type.name).second) << type.name;
 }
 
 // Ranges of angles are declared in radians and read in degrees.

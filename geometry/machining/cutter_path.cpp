@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "geometry/curves/machining/contact_fields.h"
 #include "geometry/curves/operations/surface_curve.h"
+#include "geometry/machining/contact_fields.h"
 #include "geometry/machining/strip.h"
 
 namespace lekalo::geometry {

@@ -10,8 +10,8 @@
 
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/derived/reparametrized_curve.h"
-#include "geometry/curves/machining/contact_fields.h"
 #include "geometry/curves/operations/surface_curve.h"
+#include "geometry/machining/contact_fields.h"
 #include "geometry/machining/rows.h"
 
 namespace lekalo::geometry {

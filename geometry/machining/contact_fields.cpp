@@ -1,4 +1,4 @@
-#include "geometry/curves/machining/contact_fields.h"
+#include "geometry/machining/contact_fields.h"
 
 #include <fmt/format.h>
 

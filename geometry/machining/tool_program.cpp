@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "geometry/curves/analytic/segment.h"
-#include "geometry/curves/machining/contact_fields.h"
+#include "geometry/machining/contact_fields.h"
 
 namespace lekalo::geometry {
 

@@ -2,7 +2,7 @@
 // milling round a contour. The formulas are in geometry/machining/cutter_place.h.
 #include <cmath>
 
-#include "geometry/curves/machining/contact_fields.h"
+#include "geometry/machining/contact_fields.h"
 
 namespace lekalo::geometry {
 
