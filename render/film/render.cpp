@@ -22,6 +22,7 @@
 #include "render/film/tiles.h"
 #include "render/image/image_error.h"
 #include "render/lines/picture_lines.h"
+#include "render/model/face_materials.h"
 #include "render/model/placed_objects.h"
 
 namespace lekalo::render {
@@ -36,8 +37,8 @@ class MaterialNumbers {
  public:
   explicit MaterialNumbers(const std::vector<Object>& objects) {
     each_object(objects, [&](const Object& object) {
-      for (const Material* material : {object.material.get(), object.back_material.get()})
-        if (material) numbers_.emplace(material, static_cast<uint32_t>(numbers_.size() + 1));
+      for (const Material* material : materials_of(object))
+        numbers_.emplace(material, static_cast<uint32_t>(numbers_.size() + 1));
     });
   }
   uint32_t operator()(const Material& material) const {

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <set>
 
+#include "render/model/attributes.h"
 #include "render/model/color_scale.h"
 #include "render/model/model.h"
 #include "render/model/text_template.h"
@@ -100,7 +101,7 @@ class AnalysisIntegrator final : public Integrator {
   std::optional<double> value_at(const World& world, const Hit& hit, const SurfacePoint& point) const {
     const Quantity& q = options_.quantity;
     if (!q.value) return std::nullopt;
-    AnalysedPlace place{point, nullptr, {}};
+    AnalysedPlace place{point, nullptr, &world.object(point), {}};
     if (q.needs_parameters) place.surface = world.target(hit).surface;
     if (q.needs_curvature) place.curvature = curvature_at(world, hit, point);
     return q.value(place);
@@ -213,7 +214,8 @@ IntegratorPtr make_analysis_integrator(const AnalysisOptions& options) {
 TypeDeclaration analysis_integrator_type() {
   TypeDeclaration type =
       declare(Category::integrator, "analysis",
-              "What surfaces are like, in colours: curvatures, angles, stripes, or a formula, exact at each pixel. Its "
+              "What surfaces are like, in colours: curvatures, angles, stripes, a formula, exact at each pixel, or an "
+              "attribute of elements. Its "
               "numbers are a layer of OpenEXR files that is called as the quantity.");
   add_quantity_fields(type);
   return type
@@ -240,7 +242,10 @@ TypeDeclaration analysis_integrator_type() {
         options.bands = f.boolean("bands");
         if (f.boolean("lines")) options.line_width = f.number("line_width");
         options.shading = f.number("shading");
-        if (f.has("title")) options.title = f.get<TextTemplate>("title").text();
+        if (f.has("title"))
+          options.title = f.get<TextTemplate>("title").text();
+        else if (f.has("attribute"))
+          options.title = title_of_attribute(f.text("attribute"));
         return make_analysis_integrator(options);
       });
 }

@@ -55,9 +55,8 @@ class Boundary {
 
  private:
   void show(const World& world) {
-    const Object& object = world.object(point);
-    front_material_ = object.material.get();
-    material = front || !object.back_material ? front_material_ : object.back_material.get();
+    front_material_ = &world.material(point, true);
+    material = front ? front_material_ : &world.material(point, false);
   }
   // False, and nothing done, if the ray crosses just the one surface here.
   bool take_all(const World& world, const Ray& ray, const Hit& hit, const Wavelengths& wavelengths, Media& media);

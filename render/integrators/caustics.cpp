@@ -14,6 +14,7 @@
 #include "render/lights/lights.h"
 #include "render/lobes/bsdf.h"
 #include "render/lobes/microfacet.h"
+#include "render/model/face_materials.h"
 #include "render/model/placed_objects.h"
 
 namespace lekalo::render {
@@ -91,8 +92,7 @@ double thrown_by(const Material& material, const SurfacePoint& place) {
 
 double thrown_by(const Object& object) {
   double most = 0;
-  for (const Material* material : {object.material.get(), object.back_material.get()}) {
-    if (!material) continue;
+  for (const Material* material : materials_of(object)) {
     if (!material->uses_parameters()) {
       most = std::max(most, thrown_by(*material, {}));
       continue;

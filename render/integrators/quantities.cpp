@@ -11,6 +11,8 @@
 #include "geometry/queries/closest/closest_point.h"
 #include "geometry/queries/differential/stretch.h"
 #include "geometry/spatial/nearest_points.h"
+#include "render/model/attributes.h"
+#include "render/model/objects.h"
 
 namespace lekalo::render {
 
@@ -199,6 +201,24 @@ Quantity of_formula(const Expression& formula) {
   return q;
 }
 
+// What is said of the face that is seen, or what it inherits.
+Quantity of_attribute(const Fields& f) {
+  const std::string& name = f.text("attribute");
+  const auto table = f.get<std::shared_ptr<const AttributeTable>>("attribute.table");
+  const std::vector<std::string> names = table->names();
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw FieldError("attribute", fmt::format("nothing in the scene has the attribute '{}'", name),
+                     names.empty() ? "say it in the section 'attributes'"
+                                   : "there are " + fmt::format("{}", fmt::join(names, ", ")));
+  Quantity q;
+  q.value = [table, name](const AnalysedPlace& at) -> Value {
+    if (!at.object) return std::nullopt;
+    const auto found = table->of({identity(at.object->shape), ElementId::Kind::face, at.point.face}, name);
+    return found ? Value(found->value) : std::nullopt;
+  };
+  return q;
+}
+
 Quantity named_quantity(const std::string& name, const Fields& f) {
   if (name == "gaussian_curvature") return of_curvature("", true, [](const SurfaceCurvature& c) { return c.gaussian; });
   if (name == "mean_curvature") return of_curvature("", true, [](const SurfaceCurvature& c) { return c.mean; });
@@ -287,7 +307,7 @@ double value_on(const Quantity& quantity, const Surface& surface, double u, doub
   point.normal = point.geometric_normal = surface.normal(u, v);
   point.u = u;
   point.v = v;
-  AnalysedPlace place{point, &surface, {}};
+  AnalysedPlace place{point, &surface, nullptr, {}};
   if (quantity.needs_curvature) place.curvature = curvature(surface, u, v);
   return quantity.value(place).value_or(std::numeric_limits<double>::quiet_NaN());
 }
@@ -322,6 +342,9 @@ void add_quantity_fields(TypeDeclaration& type) {
           "`to`, the larger of the principal ones; deviation: of the nearest of `points`, along the normal",
           "gaussian_curvature")
       .optional("formula", formula(kVariables), kFormulaText)
+      .optional(
+          "attribute", text(),
+          "any other quantity: an attribute of elements (section `attributes`), of each face its own or its body's")
       .field("direction", direction(), "of zebra, isophotes, draft_angle: axis of the stripes, light, pull of a mould",
              "z")
       .field("stripes", integer().between(1, 1000), "of zebra and isophotes, from 0 to 180 degrees", "18")
@@ -337,7 +360,9 @@ void add_quantity_fields(TypeDeclaration& type) {
 Quantity quantity_of(const Fields& f) {
   if (f.has("formula") && f.given("quantity"))
     throw FieldError("formula", "a 'formula' is a quantity of its own: leave out 'quantity'");
-  const std::string name = f.has("formula") ? "formula" : f.text("quantity");
+  if (f.has("attribute") && (f.has("formula") || f.given("quantity")))
+    throw FieldError("attribute", "an 'attribute' is a quantity of its own: leave out 'quantity' and 'formula'");
+  const std::string name = f.has("attribute") ? f.text("attribute") : f.has("formula") ? "formula" : f.text("quantity");
   for (const auto& [field, quantities] : kOnlyOf)
     if (f.given(field) && std::find(quantities.begin(), quantities.end(), name) == quantities.end()) {
       std::string list;
@@ -345,7 +370,9 @@ Quantity quantity_of(const Fields& f) {
       throw FieldError(field, fmt::format("'{}' is not for the quantity '{}'", field, name),
                        fmt::format("it is for {}", list));
     }
-  Quantity result = name == "formula" ? of_formula(f.get<Expression>("formula")) : named_quantity(name, f);
+  Quantity result = f.has("attribute") ? of_attribute(f)
+                    : f.has("formula") ? of_formula(f.get<Expression>("formula"))
+                                       : named_quantity(name, f);
   result.name = name;
   if (result.is_direction) return result;
   // What is not finite, or no float holds, is not known.

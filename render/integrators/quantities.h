@@ -8,6 +8,7 @@
 
 #include "geometry/describe.h"
 #include "geometry/queries/differential/curvature.h"
+#include "render/model/model.h"
 #include "render/ray.h"
 
 namespace lekalo::render {
@@ -16,6 +17,7 @@ namespace lekalo::render {
 struct AnalysedPlace {
   const SurfacePoint& point;
   const geometry::Surface* surface = nullptr;  // whose parameters the point has; none of shapes and bare meshes
+  const Object* object = nullptr;              // that is seen; null: only its surface is known
   geometry::SurfaceCurvature curvature;        // where it is asked for and known, else not regular
 };
 

@@ -10,6 +10,7 @@
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/transformed.h"
 #include "render/lines/stroke_collector.h"
+#include "render/model/face_materials.h"
 #include "render/model/look.h"
 
 namespace lekalo::render {
@@ -197,7 +198,7 @@ void StrokeCollector::add_borders_of_fill(const Fill& fill) {
       for (const MeshLine& line : mesh_lines(**mesh, from_light))
         if (line.kind == MeshLineKind::silhouette) stroke(line.curve, Style(), {});
   }
-  if (fill.shading == Fill::Shading::gradient) {
+  if (fill.shading == Fill::Shading::gradient || face_materials(*object_)) {
     kind_ = "smooth";
     if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) add_edges(**body, kind_, Style(), {});
     if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) {

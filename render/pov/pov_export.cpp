@@ -13,6 +13,7 @@
 
 #include "render/integrators/classic.h"
 #include "render/lights/lights.h"
+#include "render/model/face_materials.h"
 #include "render/pov/pov_parts.h"
 
 namespace lekalo::render {
@@ -173,8 +174,10 @@ std::string Writer::object(const Object& object) {
   std::string attributes;
   if (object.back_material && object.back_material != object.material)
     notes_.add(name + ": the look of its back is not written");
+  if (face_materials(object)) notes_.add(name + ": the materials of its faces are not written");
+  const MaterialPtr material = body_material(object);
   const auto close = [&](const PovShape& shape) {
-    return shape.text + pov_material(*object.material, material_name(object.material), shape.parameters, notes_);
+    return shape.text + pov_material(*material, material_name(material), shape.parameters, notes_);
   };
   std::string text;
   if (const auto* surface = std::get_if<SurfacePtr>(&object.shape)) {

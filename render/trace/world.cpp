@@ -18,6 +18,7 @@
 #include "geometry/tessellation/tessellate.h"
 #include "geometry/tolerances.h"
 #include "render/lobes/scattering.h"
+#include "render/model/face_materials.h"
 #include "render/model/mesh_tolerance.h"
 #include "render/model/placed_objects.h"
 #include "render/trace/clipped_body.h"
@@ -47,7 +48,7 @@ constexpr size_t kMaxMedia = 32;
 using ShareKey = std::tuple<std::vector<const void*>, int, double, double, double, bool, bool>;
 
 // All that it consists of.
-std::vector<const void*> identity(const Entity& entity) {
+std::vector<const void*> parts_of(const Entity& entity) {
   return std::visit(
       [](const auto& value) -> std::vector<const void*> {
         using T = std::decay_t<decltype(value)>;
@@ -66,12 +67,12 @@ std::vector<const void*> identity(const Entity& entity) {
 
 // True if an object's materials need the parameters of its hits.
 bool uses_parameters(const Object& object) {
-  return (object.material && object.material->uses_parameters()) ||
-         (object.back_material && object.back_material->uses_parameters());
+  const auto all = materials_of(object);
+  return std::any_of(all.begin(), all.end(), [](const Material* one) { return one->uses_parameters(); });
 }
 
 ShareKey key_of(const Object& object) {
-  return {identity(object.shape),
+  return {parts_of(object.shape),
           static_cast<int>(object.representation),
           object.sag,
           object.sag_pixels,
@@ -109,7 +110,8 @@ struct World::Compiled {
     double error;
   };
   std::vector<Place> places;
-  std::vector<const Object*> objects;  // by the number that hits carry
+  std::vector<const Object*> objects;       // by the number that hits carry
+  std::vector<const FaceMaterials*> faced;  // of these; empty where no object has any
   WorldStatistics statistics;
   bool parameters = true;
   std::map<ShareKey, int> uses;
@@ -126,6 +128,11 @@ struct World::Compiled {
       }
       places.push_back({place.leaf, place.object, place.error});
     }
+  }
+
+  void list_faced() {
+    if (std::none_of(objects.begin(), objects.end(), [](const Object* one) { return face_materials(*one); })) return;
+    for (const Object* object : objects) faced.push_back(face_materials(*object));
   }
 
   void count_uses(const std::vector<Object>& list) {
@@ -370,9 +377,9 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
     c.commit(c.top);
   });
   c.list_places();
+  c.list_faced();
   for (const Object* object : c.objects)
-    for (const Material* material : {object->material.get(), object->back_material.get()})
-      transmits_ = transmits_ || (material && material->transmits());
+    for (const Material* material : materials_of(*object)) transmits_ = transmits_ || material->transmits();
   if (transmits_) list_contacts();
   list_glows();
   c.statistics.pieces = c.top.piece_count();
@@ -388,8 +395,8 @@ void World::list_glows() {
   std::unordered_map<const Object*, float> brightness;
   for (const Object* object : compiled_->objects) {
     float most = 0;
-    for (const Material* material : {object->material.get(), object->back_material.get()})
-      if (material) most = std::max(most, material->scattering({}, Wavelengths()).emission.largest());
+    for (const Material* material : materials_of(*object))
+      most = std::max(most, material->scattering({}, Wavelengths()).emission.largest());
     if (most > 0 && !is_drawn_only(object->shape)) brightness.emplace(object, most);
   }
   if (brightness.empty()) return;
@@ -410,7 +417,10 @@ void World::list_glows() {
 void World::list_contacts() {
   const Hierarchy& top = compiled_->top;
   const auto has_medium = [](const Object& object) {
-    return !is_drawn_only(object.shape) && object.material && object.material->interior(Wavelengths()).has_value();
+    const auto all = materials_of(object);
+    return !is_drawn_only(object.shape) && std::any_of(all.begin(), all.end(), [](const Material* one) {
+      return one->interior(Wavelengths()).has_value();
+    });
   };
   const double placed = PlacedObjects(model_->objects, has_medium).count();
   if (placed == 0) return;
@@ -519,8 +529,11 @@ const std::vector<const Object*>& World::objects() const { return compiled_->obj
 
 const Material& World::material(const SurfacePoint& point, bool front) const {
   const Object& object = this->object(point);
-  const MaterialPtr& back = object.back_material;
-  return *(front || !back ? object.material : back);
+  const FaceMaterials* faced = compiled_->faced.empty() ? nullptr : compiled_->faced[static_cast<size_t>(point.object)];
+  const Material* own = faced ? faced->own(point.face) : nullptr;
+  if (own) return *own;
+  if (!front && object.back_material) return *object.back_material;
+  return faced ? *faced->body() : *object.material;
 }
 
 }  // namespace lekalo::render

@@ -17,6 +17,7 @@
 #include "render/image/atomic_file.h"
 #include "render/image/display.h"
 #include "render/mesh_files/mesh_files.h"
+#include "render/model/face_materials.h"
 #include "render/pov/pov_export.h"
 #include "render/step/step_export.h"
 
@@ -50,7 +51,9 @@ int export_pov(const Options& options, const std::string& output) {
 // The curves and surfaces named, or all that the scene's objects show, as NURBS; those of objects where they are moved
 // to, those of a set each by itself.
 int export_json(const Options& options, const std::string& output) {
-  const render::LoadedScene scene = options.scene.load();
+  const render::SceneWithAttributes scene =
+      render::load_with_attributes(options.scene.file, options.scene.load_options());
+  print_external_notes(scene, false);
   check_inputs_stay(scene, {output});
   ordered_json curves = ordered_json::array(), surfaces = ordered_json::array();
   const auto add = [&](const std::string& name, const render::Entity& entity) {
@@ -78,9 +81,12 @@ int export_json(const Options& options, const std::string& output) {
       else if (!options.quiet)
         fmt::print(stderr, "note: '{}' is left out: JSON files hold curves and surfaces\n", object.name);
     }
-  if (curves.empty() && surfaces.empty())
+  const ordered_json attributes = attributes_of_elements(scene);
+  if (curves.empty() && surfaces.empty() && attributes.empty())
     throw UsageError("there is nothing to export: no curve and no surface is shown");
-  render::write_file_atomically(output, ordered_json{{"curves", curves}, {"surfaces", surfaces}}.dump(2) + "\n");
+  ordered_json written{{"curves", curves}, {"surfaces", surfaces}};
+  if (!attributes.empty()) written["attributes"] = attributes;
+  render::write_file_atomically(output, written.dump(2) + "\n");
   if (!options.quiet) fmt::print(stderr, "{}: {} curves, {} surfaces\n", output, curves.size(), surfaces.size());
   return kDone;
 }
@@ -92,8 +98,9 @@ int export_step(const Options& options, const std::string& output) {
   std::vector<render::StepShape> shapes;
   std::set<std::string> notes;
   const auto color_of = [](const render::Object& object) -> std::optional<geometry::Vec3> {
-    if (!object.material) return std::nullopt;
-    const geometry::Vec3 linear = rgb(object.material->albedo(render::SurfacePoint(), render::Wavelengths{}));
+    const render::MaterialPtr material = render::body_material(object);
+    if (!material) return std::nullopt;
+    const geometry::Vec3 linear = rgb(material->albedo(render::SurfacePoint(), render::Wavelengths{}));
     geometry::Vec3 color(0);
     for (int i = 0; i < 3; ++i) color[i] = render::srgb_encode(std::clamp(linear[i], 0.0, 1.0));
     return color;
@@ -199,7 +206,8 @@ void add_export(CLI::App& app, Action& action) {
       "shape's size. PLY has double\n"
       "precision; OBJ has shared points and a group for every face; STL has corners in single precision. JSON has\n"
       "curves and surfaces as NURBS and Bezier pieces, as 'lekalo measure --nurbs --json' prints them: exactly, or\n"
-      "fitted to a billionth of a curve's size, to 1e-12 of a surface's. STEP has bodies, surfaces, curves and points\n"
+      "fitted to a billionth of a curve's size, to 1e-12 of a surface's; and the attributes of elements. STEP has "
+      "bodies, surfaces, curves and points\n"
       "exactly where it has such (planes, cylinders, cones, spheres, tori, lines, circles, ellipses, NURBS), else\n"
       "fitted to --tolerance; lengths in info.unit. glTF (gltf, glb) has an\n"
       "object a node, materials, and the lines that pictures show; html is a page that shows it and needs no others.\n"

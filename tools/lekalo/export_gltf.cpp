@@ -2,6 +2,7 @@
 // shows them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "render/materials/materials.h"
 #include "render/materials/optical_constants.h"
 #include "render/mesh_files/gltf.h"
+#include "render/model/face_materials.h"
 #include "render/scene/values/characters.h"
 #include "render/scene/yaml/data_path.h"
 #include "render/scene/yaml/include.h"
@@ -81,12 +83,32 @@ class Exporter {
     collection.leave_out_curves();
     collection.add(object, to_world);
     left_out_.insert(collection.left_out().begin(), collection.left_out().end());
-    render::GltfNode node;
-    node.name = object.name;
-    node.mesh = collection.finish();
-    if (node.mesh.triangles.empty()) return;
-    if (object.material) node.material = number_of(*object.material);
-    scene_.nodes.push_back(std::move(node));
+    const geometry::Mesh mesh = collection.finish();
+    // The faces of each material are a node.
+    for (const render::Material* material : materials_in(mesh, object)) {
+      render::GltfNode node;
+      node.name = object.name;
+      node.mesh = mesh;
+      std::erase_if(node.mesh.triangles,
+                    [&](const auto& one) { return material_of_face(object, one.face) != material; });
+      if (material) node.material = number_of(*material);
+      scene_.nodes.push_back(std::move(node));
+    }
+  }
+
+  static const render::Material* material_of_face(const render::Object& object, int face) {
+    const render::FaceMaterials* faced = render::face_materials(object);
+    const render::Material* own = faced ? faced->own(face) : nullptr;
+    return own ? own : render::body_material(object).get();
+  }
+  // In the order of the triangles.
+  static std::vector<const render::Material*> materials_in(const geometry::Mesh& mesh, const render::Object& object) {
+    std::vector<const render::Material*> all;
+    for (const geometry::Mesh::Triangle& triangle : mesh.triangles) {
+      const render::Material* one = material_of_face(object, triangle.face);
+      if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
+    }
+    return all;
   }
 
   int number_of(const render::Material& material) {

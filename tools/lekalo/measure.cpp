@@ -180,7 +180,12 @@ void print_measures(const ordered_json& measured) {
                                                  : "");
   for (const auto& [key, value] : measured.items()) {
     if (key == "by_lines") fmt::print("by lines           {}\n", value.get<std::string>());
+    if (key == "without_mass") fmt::print("without mass       {}\n", value.get<std::string>());
     if (key == "conic") fmt::print("{:<18} {}\n", key, value.get<std::string>());
+    if (key == "attributes") {
+      print_attributes(value);
+      continue;
+    }
     if (value.is_string() || value.is_boolean() || key.ends_with("_error")) continue;
     if (key == "parameters" || value.is_object()) {
       value.is_object() ? print_plan(value) : print_parameters(value);

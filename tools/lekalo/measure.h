@@ -11,6 +11,7 @@
 #include "geometry/queries/closest/distance.h"
 #include "json.h"
 #include "render/model/model.h"
+#include "render/scene/build/scene_attributes.h"
 #include "render/scene/yaml/table.h"
 
 namespace lekalo::command {
@@ -21,6 +22,13 @@ ordered_json measures(const std::string& name, const render::Entity& entity);
 void put_plan(ordered_json& out, const geometry::Curve& curve);
 void print_plan(const ordered_json& plan);
 void print_measures(const ordered_json& measured);
+
+// Adds what the scene says of the thing, face or edge of this name, and the mass and its moments where it has a
+// density.
+void put_attributes(ordered_json& out, const render::SceneWithAttributes& scene, const std::string& name);
+void print_attributes(const ordered_json& attributes);
+// A row for every element that has attributes of its own.
+ordered_json attributes_of_elements(const render::SceneWithAttributes& scene);
 
 // Faces, edges and vertices of a body with their names; counts of a mesh. Throws UsageError for anything else.
 ordered_json topology(const std::string& name, const render::Entity& entity);

@@ -374,7 +374,13 @@ Answer parameter(const std::string& name, double value) {
           }};
 }
 
-Answer answer(const Options& options, const render::LoadedScene& scene) {
+Answer plain_measures(const std::string& name, const render::Entity& entity, const render::SceneWithAttributes& scene) {
+  ordered_json found = measures(name, entity);
+  put_attributes(found, scene, name);
+  return {std::move(found), print_measures};
+}
+
+Answer answer(const Options& options, const render::SceneWithAttributes& scene) {
   const auto known = scene.model->parameters.find(options.name);
   if (known != scene.model->parameters.end() && !scene.model->geometry.contains(options.name))
     return parameter(options.name, known->second);
@@ -389,7 +395,7 @@ Answer answer(const Options& options, const render::LoadedScene& scene) {
     throw UsageError(fmt::format("'{}' has no topology: {}", options.name, no_boundary));
   print_external_notes(scene, !options.json);
   const Inquiry asked(options, scene, entity);
-  const Answer found = question ? question->answer(asked) : Answer{measures(options.name, entity), print_measures};
+  const Answer found = question ? question->answer(asked) : plain_measures(options.name, entity, scene);
   for (const Modifier& detail : modifiers())
     if (options.details.contains(detail.option) && !asked.used().contains(detail.option))
       throw UsageError(fmt::format("{} belongs to {}", detail.option, detail.belongs_to));
@@ -397,7 +403,8 @@ Answer answer(const Options& options, const render::LoadedScene& scene) {
 }
 
 int run(const Options& options) {
-  const render::LoadedScene scene = render::load_scene(options.scene.file, options.scene.load_options());
+  const render::SceneWithAttributes scene =
+      render::load_with_attributes(options.scene.file, options.scene.load_options());
   Answer found = answer(options, scene);
   if (options.json && !scene.external_notes.empty()) found.found["external"] = as_json(scene.external_notes);
   demand_finite(found.found);
@@ -478,8 +485,8 @@ void add_measure(CLI::App& app, Action& action) {
       "  lekalo measure curves.yaml rim --rim --chord 0.3,2\n"
       "  lekalo measure pipe.yaml flat --stretch pipe\n"
       "  lekalo measure kernel.yaml theirs --against ours --samples 200 --tolerance 1e-9 --allow-external\n\n"
-      "Density is one. The inertia tensor is about the centroid; principal axes are listed in the order of the "
-      "moments.\n"
+      "Density is one; of what has an attribute `density` the mass and its moments follow, in kilograms and metres. "
+      "The inertia tensor is about the centroid; principal axes are listed in the order of the moments.\n"
       "Exit code 1 if a sample is farther away than the tolerance; of two curves or surfaces, if points, derivatives, "
       "tangents or normals differ by more.");
   auto options = std::make_shared<Options>();

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "geometry/shapes/csg/csg.h"
 #include "render/drawing/areas/regions.h"
 #include "render/material.h"
+#include "render/model/face_materials.h"
 
 namespace lekalo::render {
 
@@ -144,19 +146,29 @@ class Filling {
     const double cosine =
         (front ? 1 : -1) * glm::dot(point.geometric_normal, lights_[static_cast<size_t>(point.object)]);
     seen.label.object = point.object;
-    seen.label.back = !front && world_.objects()[static_cast<size_t>(point.object)]->back_material;
-    if (fill.shading == Fill::Shading::gradient) seen.label.face = one_faces_.first(point.object, point.face);
+    const Object& object = *world_.objects()[static_cast<size_t>(point.object)];
+    seen.label.back = !front && object.back_material;
+    if (face_materials(object))
+      seen.label.face = point.face;
+    else if (fill.shading == Fill::Shading::gradient)
+      seen.label.face = one_faces_.first(point.object, point.face);
     if (fill.shading == Fill::Shading::two_tone || (fill.hatching && fill.hatching->shade_only))
       seen.label.shade = cosine < 0;
-    seen.label.cut = is_cut_face(*world_.objects()[static_cast<size_t>(point.object)], point.face);
+    seen.label.cut = is_cut_face(object, point.face);
     seen.lambert = std::max(cosine, 0.0);
     seen.color = rgb_of(world_.material(point, front).albedo(point, Wavelengths{}));
     return seen;
   }
   RegionLabel label_at(const Vec2& place) const {
     const Interaction seen = seen_at(place);
-    if (seen.label.object >= 0) colors_.emplace(std::pair(seen.label.object, seen.label.back), seen.color);
+    if (seen.label.object >= 0) colors_.emplace(look_of(seen.label), seen.color);
     return seen.label;
+  }
+  // What of an object has one colour: a side, or a face of it where these have materials of their own.
+  using OneColor = std::tuple<int, bool, int>;
+  OneColor look_of(const RegionLabel& label) const {
+    const bool by_face = face_materials(*world_.objects()[static_cast<size_t>(label.object)]) != nullptr;
+    return {label.object, label.back, by_face ? label.face : 0};
   }
   // Crossings tell the leaf of the solid (csg.h).
   static bool is_cut_face(const Object& object, int face) {
@@ -169,7 +181,7 @@ class Filling {
   Vec3 color_of(const RegionLabel& label) const {
     const Fill& fill = *fills_[static_cast<size_t>(label.object)];
     if (fill.color) return *fill.color;
-    const Vec3 color = colors_.at({label.object, label.back});
+    const Vec3 color = colors_.at(look_of(label));
     return std::max({color.x, color.y, color.z}) < kMinColor ? kPlainColor : glm::clamp(color, 0.0, 1.0);
   }
 
@@ -187,20 +199,21 @@ class Filling {
     };
     const Object& shown = *world_.objects()[static_cast<size_t>(object)];
     const bool filled = view_.model.drawing.ground == Ground::fill;
-    std::map<bool, RegionLabel> sides;
-    for (const RegionLabel& label : labels) sides.emplace(label.back, label);
-    for (const auto& [back, side] : sides) {
+    std::map<OneColor, RegionLabel> looks;
+    for (const RegionLabel& label : labels) looks.emplace(look_of(label), label);
+    for (const auto& [look, first] : looks) {
       if (!filled || fill.shading == Fill::Shading::none) break;
-      const Vec3 color = color_of(side);
-      const auto lit = part([&](const RegionLabel& label) { return label.back == back; });
+      const Vec3 color = color_of(first);
+      const auto is_so = [&](const RegionLabel& label) { return look_of(label) == look; };
+      const auto lit = part(is_so);
       group.items.emplace_back(SheetPath{lit, {}, Brush{rgb(color), 1}, {}});
       if (fill.shading == Fill::Shading::two_tone)
-        if (const auto shade = part([&](const RegionLabel& label) { return label.back == back && label.shade; });
+        if (const auto shade = part([&](const RegionLabel& label) { return is_so(label) && label.shade; });
             !shade.empty())
           group.items.emplace_back(SheetPath{shade, {}, Brush{rgb(fill.shade * color), 1}, {}});
       if (fill.shading == Fill::Shading::gradient)
         for (const RegionLabel& label : labels) {
-          if (label.back != back) continue;
+          if (!is_so(label)) continue;
           SheetPath area{loops([&](const RegionLabel& one) { return one == label; }), {}, {}, {}};
           area.gradient = gradient_of(label, area.parts, color, fill.shade);
           if (area.gradient) group.items.emplace_back(std::move(area));
@@ -306,7 +319,7 @@ class Filling {
   double tolerance_;
   std::vector<const Fill*> fills_;  // of objects
   std::vector<Vec3> lights_;
-  mutable std::map<std::pair<int, bool>, Vec3> colors_;  // of objects and their sides
+  mutable std::map<OneColor, Vec3> colors_;
   std::unique_ptr<Regions> regions_;
   Fills result_;
 };

@@ -13,6 +13,7 @@
 #include "geometry/bodies/topology/selection.h"
 #include "geometry/describe.h"
 #include "render/cameras/cameras.h"
+#include "render/model/attributes.h"
 #include "render/model/model.h"
 #include "render/model/objects.h"
 #include "render/scene/build/constraint_report.h"
@@ -74,6 +75,9 @@ class Builder {
 
   // What is known of things whose points come from outside.
   const std::vector<ExternalNote>& external_notes() const { return external_notes_; }
+
+  // Of the section `attributes`, read when first asked for.
+  const AttributeTable& attributes();
 
   // Of the section `constraints`; null without one.
   const std::shared_ptr<const ConstraintReport>& constraints() const { return constraints_; }
@@ -228,6 +232,14 @@ class Builder {
   std::vector<std::string> names_of_references(const Value& value, const Counters& counters,
                                                std::span<const Category> wanted);
   std::optional<std::vector<Built>> named(const Value& value, std::span<const Category> wanted);
+  // A thing that a name stands for, or the part of it: of blank.end the body and end.
+  struct NamedPart {
+    const NamedThing* thing = nullptr;
+    NamedThing::Member* member = nullptr;
+    std::string part;  // empty: the whole
+  };
+  // All of them, built; nothing after an error.
+  std::optional<std::vector<NamedPart>> parts_named(const Value& value, std::span<const Category> wanted);
   const Built* member(NamedThing& thing, NamedThing::Member& member, std::span<const Category> wanted);
   // A member of a set, or the faces, edges or vertices of a body that a name stands for.
   std::optional<std::vector<Built>> part_of(const Built& whole, std::string_view part, const Value& asked,
@@ -240,6 +252,19 @@ class Builder {
   bool repeat(const Value& map, const Counters& counters,
               const std::function<void(const Counters&, const std::string&)>& visit);
   std::optional<std::vector<double>> read_whole_numbers(const Value& range, const Counters& counters);
+
+  // --- builder_attributes.cpp
+  void read_attributes(const Value& map, const Counters& counters);
+  bool read_numbers_of(const Value& map, const Counters& counters, ElementAttributes& into);
+  std::optional<std::vector<NamedElement>> elements_of(const Value& value, const Counters& counters);
+  std::optional<std::vector<NamedElement>> elements_named(const Value& name);
+  std::optional<std::vector<NamedElement>> elements_selected(const Value& map, const Counters& counters);
+  std::optional<geometry::BodyPtr> faces_of(const Built& whole, const Value& asked);
+  std::optional<MeasuredQuantity> quantity_of_element(const QuantityOfElement& asked, const Value& map);
+  // What attributes say of the shape; null: nothing.
+  MaterialPtr material_of_shape(const Entity& shape);
+  // The materials of its faces, and what shines through, by the attributes of its shape.
+  void dress(Object& object);
 
   // --- builder_constraints.cpp
   void solve_constraints();
@@ -285,6 +310,7 @@ class Builder {
   Value styles_;    // the built-in ones with the scene's changes
   Value geometry_;  // the section with the points of constraints
   std::map<std::string, std::map<std::string, NamedThing, std::less<>>> sections_;
+  std::shared_ptr<AttributeTable> attributes_;  // null: not asked for yet
   std::map<std::string, Value> default_values_;
   std::map<const TypeDeclaration*, std::vector<Field>> declared_;
   std::map<const void*, const TypeDeclaration*> types_;  // of built geometry, by identity()

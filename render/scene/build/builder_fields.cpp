@@ -74,6 +74,11 @@ bool Builder::read_field(const Field& field, const Value& value, const Counters&
       }
     }
     fields.set(field.name, *std::move(result));
+    // What is asked for by its name; whoever is built of the fields finds what is said.
+    if (field.name == "attribute") {
+      attributes();
+      fields.set("attribute.table", std::shared_ptr<const AttributeTable>(attributes_));
+    }
     if (field.type.kind == Kind::anchor && is_selector(value))
       fields.set(field.name + ".spots", spots_of(value, counters));
     return true;

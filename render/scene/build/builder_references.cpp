@@ -220,6 +220,34 @@ const Built& Builder::operand_of(const NamedThing& thing, NamedThing::Member& me
 
 // The things that a name stands for: one, or all members of a family.
 std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<const Category> wanted) {
+  const auto parts = parts_named(value, wanted);
+  if (!parts) return std::nullopt;
+  std::vector<Built> result;
+  for (const NamedPart& one : *parts) {
+    if (one.part.empty()) {
+      result.push_back(operand_of(*one.thing, *one.member));
+      continue;
+    }
+    const auto inner = part_of(one.member->built, one.part, value, wanted);
+    if (!inner) return std::nullopt;
+    result.insert(result.end(), inner->begin(), inner->end());
+  }
+  for (Built& built : result) {
+    auto fitting = as_wanted(std::move(built), value, wanted);
+    if (!fitting) return std::nullopt;
+    built = *std::move(fitting);
+  }
+  for (const Built& built : result)
+    if (!contains(wanted, built.category)) {
+      diagnostics_.error(value.place, fmt::format("'{}' is {}, but {} is wanted here", value.text,
+                                                  describe({&built.category, 1}), describe(wanted)));
+      return std::nullopt;
+    }
+  return result;
+}
+
+std::optional<std::vector<Builder::NamedPart>> Builder::parts_named(const Value& value,
+                                                                    std::span<const Category> wanted) {
   if (value.is_scalar() && read_number(value)) {
     diagnostics_.error(value.place, fmt::format("expected {}, found the number {}", describe(wanted), value.text),
                        contains(wanted, Category::point)
@@ -266,7 +294,7 @@ std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<c
   }
   NamedThing& thing = known->second;
   thing.used = thing.used || names_use_;
-  std::vector<Built> result;
+  std::vector<NamedPart> result;
   std::string_view rest = found.member;
   bool matched = thing.is_family && rest.empty();  // a family may be empty
   const auto is_of_member = [&](const NamedThing::Member& one) {
@@ -283,15 +311,8 @@ std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<c
       part = rest.starts_with(one.name + ".") ? rest.substr(one.name.size() + 1) : std::string_view();
     }
     matched = true;
-    const Built* built = member(thing, one, wanted);
-    if (!built) return std::nullopt;
-    if (part.empty()) {
-      result.push_back(operand_of(thing, one));
-    } else {
-      const auto inner = part_of(*built, part, value, wanted);
-      if (!inner) return std::nullopt;
-      result.insert(result.end(), inner->begin(), inner->end());
-    }
+    if (!member(thing, one, wanted)) return std::nullopt;
+    result.push_back({&thing, &one, std::string(part)});
   }
   if (!matched) {
     diagnostics_.error(value.place, fmt::format("'{}' has no member '{}'", found.entry->key.name, rest),
@@ -300,17 +321,6 @@ std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<c
                                                            thing.members.back().name));
     return std::nullopt;
   }
-  for (Built& built : result) {
-    auto fitting = as_wanted(std::move(built), value, wanted);
-    if (!fitting) return std::nullopt;
-    built = *std::move(fitting);
-  }
-  for (const Built& built : result)
-    if (!contains(wanted, built.category)) {
-      diagnostics_.error(value.place, fmt::format("'{}' is {}, but {} is wanted here", *text,
-                                                  describe({&built.category, 1}), describe(wanted)));
-      return std::nullopt;
-    }
   return result;
 }
 

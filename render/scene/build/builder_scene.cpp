@@ -67,7 +67,10 @@ std::optional<MeasuredQuantity> Builder::measured(const Value& map) {
   const bool outer = std::exchange(names_use_, false);
   const auto built = build_typed(map, {}, wanted);
   names_use_ = outer;
-  return built ? std::optional(std::any_cast<MeasuredQuantity>(built->value)) : std::nullopt;
+  if (!built) return std::nullopt;
+  if (const auto* of_element = std::any_cast<QuantityOfElement>(&built->value))
+    return quantity_of_element(*of_element, map);
+  return std::any_cast<MeasuredQuantity>(built->value);
 }
 
 Model Builder::build() {
@@ -90,6 +93,7 @@ Model Builder::build() {
   }
   fill_materials(model.objects);
   build_named(model);
+  attributes();
   build_lights(model);
   build_camera(model);
   build_drawing(model);
@@ -156,11 +160,14 @@ MaterialPtr Builder::default_material() {
   return default_material_;
 }
 
-// Objects without a material get the neutral one; the members of a group without one get that of the object.
+// Objects without a material get that of their shape's attributes, else the neutral one; the members of a group without
+// one get that of the object.
 void Builder::fill_materials(std::vector<Object>& objects) {
   for (Object& object : objects) {
+    if (!object.material) object.material = material_of_shape(object.shape);
     if (!object.material) object.material = default_material();
     if (auto* group = std::get_if<GroupPtr>(&object.shape)) *group = in_material(*group, object.material);
+    dress(object);
   }
 }
 
@@ -171,8 +178,10 @@ GroupPtr Builder::in_material(const GroupPtr& group, const MaterialPtr& material
   if (result) return result;
   auto filled = std::make_shared<Group>(*group);
   for (Object& member : filled->objects) {
+    if (!member.material) member.material = material_of_shape(member.shape);
     if (!member.material) member.material = material;
     if (auto* inner = std::get_if<GroupPtr>(&member.shape)) *inner = in_material(*inner, member.material);
+    dress(member);
   }
   kept_groups_.push_back(group);
   groups_in_material_[{filled.get(), material.get()}] = filled;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "render/scene/build/builder.h"
+#include "render/scene/build/scene_attributes.h"
 #include "render/scene/yaml/data_path.h"
 
 namespace lekalo::render {
@@ -19,9 +20,8 @@ void mix(uint64_t& hash, std::string_view text) {
   hash *= 1099511628211u;
 }
 
-}  // namespace
-
-LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options) {
+// `attributes`: filled, unless null.
+LoadedScene load(const std::filesystem::path& path, const LoadOptions& options, AttributeTable* attributes) {
   Diagnostics diagnostics;
   ReadOptions read;
   read.search_path = data_folders();
@@ -61,6 +61,19 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
   result.external_notes = builder.external_notes();
   result.constraints = builder.constraints();
   result.defaults_taken = builder.defaults_taken();
+  if (attributes) *attributes = builder.attributes();
+  return result;
+}
+
+}  // namespace
+
+LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options) {
+  return load(path, options, nullptr);
+}
+
+SceneWithAttributes load_with_attributes(const std::filesystem::path& path, const LoadOptions& options) {
+  SceneWithAttributes result;
+  static_cast<LoadedScene&>(result) = load(path, options, &result.attributes);
   return result;
 }
 

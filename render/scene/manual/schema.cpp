@@ -421,6 +421,11 @@ Json SchemaWriter::section(const SectionDeclaration& declared) {
       return {{"type", "object"}, {"additionalProperties", any_of(std::move(choices))}};
     }
     case Shape::list:
+      if (declared.name == "attributes") {
+        Json map = map_of(declared.fields, {"repeat"});
+        map["additionalProperties"] = ref("formula");  // quantities of one's own
+        return one_or_list(map);
+      }
       return one_or_list(any_of({{{"type", "string"}}, map_of(declared.fields, {"repeat"})}));
     case Shape::things:
       return one_or_list(thing(declared.categories));

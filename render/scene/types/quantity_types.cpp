@@ -122,11 +122,36 @@ TypeDeclaration closest_parameter_type() {
       });
 }
 
+TypeDeclaration attribute_type() {
+  return declare(Category::quantity, "attribute",
+                 "An attribute of an element, its own or one that it inherits: of a face that of its body.")
+      .field("of", reference({Category::curve, Category::surface, Category::body, Category::mesh, Category::shape}),
+             "name of the element")
+      .field("name", text(), "of the attribute: density, temperature, ...")
+      .example("of: part, name: temperature")
+      .built_by([](const Fields& f) {
+        return QuantityOfElement{f.text("name"), {}};
+      });
+}
+
+TypeDeclaration mass_type() {
+  return declare(Category::quantity, "mass",
+                 "Mass of a body in kilograms: its volume times its attribute `density`; without info.unit a scene "
+                 "unit is a metre.")
+      .field("of", reference({Category::body}), "name of the body")
+      .example("of: part")
+      .built_by([](const Fields& f) {
+        const BodyPtr body = f.body("of");
+        if (!body->is_closed()) throw FieldError("of", "this body has free borders: it has no volume");
+        return QuantityOfElement{"density", body};
+      });
+}
+
 }  // namespace
 
 std::vector<TypeDeclaration> quantity_types() {
-  return {distance_type(), angle_between_type(), scalar_product_type(), arc_length_type(),
-          area_type(),     volume_type(),        curvature_type(),      closest_parameter_type()};
+  return {distance_type(), angle_between_type(), scalar_product_type(),    arc_length_type(), area_type(),
+          volume_type(),   curvature_type(),     closest_parameter_type(), attribute_type(),  mass_type()};
 }
 
 }  // namespace lekalo::render

@@ -4,6 +4,7 @@
 
 #include "render/film/filter.h"
 #include "render/film/render.h"
+#include "render/model/attributes.h"
 #include "render/model/page.h"
 #include "render/scene/types/constraint_fields.h"
 #include "render/scene/types/panels.h"
@@ -72,6 +73,30 @@ std::vector<Field> output_fields() {
       {"width", page_length().positive().at_most(5000), "of a drawing; the page's by default", false, {}}};
 }
 
+std::vector<Field> attribute_fields() {
+  using namespace geometry;
+  std::vector<Field> fields{
+      {"of",
+       references({Category::curve, Category::surface, Category::body, Category::mesh, Category::shape}),
+       "names of things, of faces and edges of bodies (part, part.top, part.edge.3), or faces and edges by conditions "
+       "({ of: part, extreme: z }); what is said of a face stands above what is said of its body",
+       true,
+       {}}};
+  for (const UsualAttribute& usual : usual_attributes())
+    fields.push_back({usual.name,
+                      number().at_least(usual.least).at_most(usual.most),
+                      usual.description + (usual.unit.empty() ? "" : ", in " + usual.unit),
+                      false,
+                      {}});
+  fields.push_back({"material",
+                    reference({Category::material}),
+                    "of what it is made: it is shown so; that of a body where its object has none, that of a face "
+                    "whatever the object says",
+                    false,
+                    {}});
+  return fields;
+}
+
 }  // namespace
 
 const std::vector<SectionDeclaration>& sections() {
@@ -99,6 +124,13 @@ const std::vector<SectionDeclaration>& sections() {
        Shape::named,
        {},
        {geometry_categories().begin(), geometry_categories().end()}},
+      {"attributes",
+       "physical data of things and of faces and edges of bodies; any other name is a number of your own. Faces "
+       "inherit "
+       "from their body, edges from faces that agree; later entries change earlier ones",
+       Shape::list,
+       attribute_fields(),
+       {}},
       {"materials", "named materials", Shape::named, {}, {Category::material}},
       {"lights", "named lights; {} means none; a studio by default", Shape::named, {}, {Category::light}},
       {"camera", "from where the scene is seen; everything, framed, by default", Shape::one_of, {}, {Category::camera}},

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kNamedSections{"geometry", "materials", "lights",
                                                          "styles",   "panels",    "parameters"};
-constexpr std::array<std::string_view, 2> kListSections{"objects", "outputs"};
+constexpr std::array<std::string_view, 3> kListSections{"attributes", "objects", "outputs"};
 template <std::size_t n>
 bool is_one_of(const std::array<std::string_view, n>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
