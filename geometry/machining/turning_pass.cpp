@@ -212,13 +212,27 @@ TurningPlan plan_of_pass(const Fields& f, const CurvePtr& part) {
   return plan;
 }
 
+// The center runs back where the profile is hollower than the edge (its path has a swallow-tail).
+void check_hollows(const Curve& centers, const Curve& profile) {
+  const Interval domain = profile.domain();
+  for (int k = 0; k <= kTried; ++k) {
+    const double t = domain.clamp(domain.lo + domain.width() * k / kTried);
+    const CurveJet at = profile.evaluate(t, 1);
+    if (glm::dot(centers.evaluate(t, 1).d[1], at.d[1]) < 0)
+      throw FieldError("edge", fmt::format("at x = {:.4g} the profile is hollower than the edge", at.d[0].x),
+                       "take a smaller tool");
+  }
+}
+
 CurvePtr path_of(const TurningPlan& plan, const Fields& f) {
   if (!f.has("edge")) return plan.profile;
   const std::vector<double>& edge = f.numbers("edge");
   const Interval domain = plan.profile->domain();
   const double side = plan.profile->point(domain.hi).x > plan.profile->point(domain.lo).x ? 1 : -1;
-  return std::make_shared<ComposedCurve<OnEllipse>>(OnEllipse{plan.profile, edge[0], edge[1], side},
-                                                    properties_of(*plan.profile, 1));
+  const CurvePtr centers = std::make_shared<ComposedCurve<OnEllipse>>(OnEllipse{plan.profile, edge[0], edge[1], side},
+                                                                      properties_of(*plan.profile, 1));
+  check_hollows(*centers, *plan.profile);
+  return centers;
 }
 
 }  // namespace
