@@ -1,20 +1,24 @@
-// Limit surfaces of Catmull's and Clark's subdivision (Catmull, Clark 1978; Stam 1998). A face whose corners all have
-// four faces is a bicubic B-spline patch. Of others the children are, all but the one at the corner that is not like
-// that: its children again, and so on. After `levels` steps the last child is a bicubic patch that goes on from those
-// beside it and holds the limit of the corner (quad_mesh.cpp).
+// Limit surfaces of subdivision; here those of Catmull and Clark (Catmull, Clark 1978; Stam 1998). A face whose corners
+// all have four faces is a bicubic B-spline patch. Of others the children are, all but the one at the corner that is
+// not like that: its children again, and so on. After `levels` steps the last child is a bicubic patch that goes on
+// from those beside it and holds the limit of the corner (catmull_clark.cpp).
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "geometry/bodies/topology/sew.h"
-#include "geometry/bodies/triangulations/quad_mesh.h"
-#include "geometry/describe.h"
+#include "geometry/bodies/triangulations/catmull_clark.h"
+#include "geometry/bodies/triangulations/control_mesh.h"
+#include "geometry/bodies/triangulations/loop_surface.h"
 #include "geometry/spatial/box_tree.h"
 #include "geometry/surfaces/splines/nurbs_surface.h"
 
 namespace lekalo::geometry {
 
 namespace {
+
+// What is left of a triangle must not be as small as what sewing takes for one place.
+constexpr int kMaxLoopLevels = 20;
 
 // Patches that fill the unit square, each over its own rectangle.
 class SubdivisionFace final : public Surface {
@@ -115,11 +119,11 @@ void add_patches(const ConnectedMesh& mesh, const Rectangle& r, int levels, std:
     BezierNet points = net.points;
     for (size_t i = 0; i < 4; ++i) to_bezier(points.data() + 4 * i, 1);
     for (size_t j = 0; j < 4; ++j) to_bezier(points.data() + j, 4);
-    for (const int corner : net.irregular) end_in(points, corner, mesh.limit(mesh.corner(0, corner)));
+    for (const int corner : net.irregular) end_in(points, corner, catmull_clark_limit(mesh, mesh.corner(0, corner)));
     patches.push_back(patch_over(points, r));
     return;
   }
-  const ConnectedMesh::Refined fine = mesh.refined();
+  const RefinedMesh fine = refined_by_catmull_clark(mesh);
   const ConnectedMesh all(fine.mesh);
   const double u = r.u.middle(), v = r.v.middle();
   const Rectangle quarters[4] = {
@@ -128,88 +132,60 @@ void add_patches(const ConnectedMesh& mesh, const Rectangle& r, int levels, std:
     add_patches(ConnectedMesh(all.around(fine.first_child[0] + k)), quarters[k], levels - 1, patches);
 }
 
-void add_faces(const Fields& f, PolygonMesh& mesh) {
-  const auto count = static_cast<int>(mesh.points.size());
-  const auto& faces = f.indices("faces");
-  std::map<std::pair<int, int>, size_t> sides;
-  for (size_t k = 0; k < faces.size(); ++k) {
-    const std::vector<int>& corners = faces[k];
-    if (corners.size() < 3)
-      throw FieldError("faces", fmt::format("face {} has {} corners: three are needed at least", k, corners.size()));
-    for (size_t i = 0; i < corners.size(); ++i) {
-      const int a = corners[i], b = corners[(i + 1) % corners.size()];
-      if (a < 0 || a >= count)
-        throw FieldError("faces", fmt::format("face {} names point {}; there are points 0 to {}", k, a, count - 1));
-      if (std::count(corners.begin(), corners.end(), a) > 1)
-        throw FieldError("faces", fmt::format("face {} has the point {} twice", k, a));
-      if (const auto [place, is_new] = sides.try_emplace({a, b}, k); !is_new)
-        throw FieldError("faces", fmt::format("faces {} and {} both run from point {} to {}", place->second, k, a, b),
-                         "all faces counterclockwise seen from one side, and two at an edge");
-    }
-    mesh.faces.push_back(corners);
-  }
-  for (const auto& [side, face] : sides)
-    if (!sides.contains({side.second, side.first})) mesh.sharp.insert(PolygonMesh::edge(side.first, side.second));
-}
-
-void add_creases(const Fields& f, PolygonMesh& mesh) {
-  std::set<std::pair<int, int>> edges;
-  for (const std::vector<int>& face : mesh.faces)
-    for (size_t i = 0; i < face.size(); ++i) edges.insert(PolygonMesh::edge(face[i], face[(i + 1) % face.size()]));
-  if (f.has("creases"))
-    for (const std::vector<int>& chain : f.indices("creases"))
-      for (size_t i = 0; i + 1 < chain.size(); ++i) {
-        const auto edge = PolygonMesh::edge(chain[i], chain[i + 1]);
-        if (!edges.contains(edge))
-          throw FieldError("creases", fmt::format("there is no edge from point {} to {}", chain[i], chain[i + 1]),
-                           "chains of points along edges of the faces");
-        mesh.sharp.insert(edge);
-      }
-  if (f.has("corners"))
-    for (const double corner : f.numbers("corners")) {
-      if (corner != std::floor(corner) || corner < 0 || corner >= static_cast<double>(mesh.points.size()))
-        throw FieldError("corners", fmt::format("there is no point {:g}", corner));
-      mesh.corners.insert(static_cast<int>(corner));
-    }
-  // Where one face alone stands between two sharp edges the border keeps its corner.
-  std::map<int, int> faces_at;
-  for (const std::vector<int>& face : mesh.faces)
-    for (const int v : face) ++faces_at[v];
-  for (const auto& [v, count] : faces_at)
-    if (count == 1) mesh.corners.insert(v);
-}
-
-BodyPtr build(const Fields& f) {
-  PolygonMesh mesh;
-  mesh.points = f.points("points");
-  add_faces(f, mesh);
-  add_creases(f, mesh);
+std::vector<SurfacePtr> catmull_clark_faces(const PolygonMesh& mesh, int levels) {
   const bool is_quads =
       std::all_of(mesh.faces.begin(), mesh.faces.end(), [](const auto& face) { return face.size() == 4; });
-  const ConnectedMesh whole(is_quads ? mesh : ConnectedMesh(mesh).refined().mesh);
+  const ConnectedMesh whole(is_quads ? mesh : refined_by_catmull_clark(ConnectedMesh(mesh)).mesh);
   std::vector<SurfacePtr> faces;
   for (int k = 0; k < static_cast<int>(whole.mesh().faces.size()); ++k) {
     std::vector<NurbsSurface> patches;
-    add_patches(ConnectedMesh(whole.around(k)), {{0, 1}, {0, 1}}, f.integer("levels"), patches);
+    add_patches(ConnectedMesh(whole.around(k)), {{0, 1}, {0, 1}}, levels, patches);
     faces.push_back(std::make_shared<SubdivisionFace>(std::move(patches)));
   }
-  return std::make_shared<Body>(sew(faces));
+  return faces;
+}
+
+std::vector<SurfacePtr> loop_faces(const PolygonMesh& mesh, int levels) {
+  for (size_t k = 0; k < mesh.faces.size(); ++k)
+    if (mesh.faces[k].size() != 3)
+      throw FieldError("faces",
+                       fmt::format("face {} has {} corners: Loop's rules take triangles", k, mesh.faces[k].size()),
+                       "cut it into triangles, or scheme: catmull_clark");
+  if (levels > kMaxLoopLevels)
+    throw FieldError("levels", fmt::format("{} is above {}, the most for scheme: loop", levels, kMaxLoopLevels),
+                     "what is left of a triangle is a millionth of its sides then");
+  return loop_surface(ConnectedMesh(mesh), levels);
+}
+
+BodyPtr build(const Fields& f) {
+  const PolygonMesh mesh = control_mesh(f);
+  const bool by_loop = f.text("scheme") == "loop";
+  const int levels = f.integer("levels");
+  return std::make_shared<Body>(sew(by_loop ? loop_faces(mesh, levels) : catmull_clark_faces(mesh, levels)));
 }
 
 }  // namespace
 
 TypeDeclaration subdivision_surface_type() {
-  return declare(Category::body, "subdivision_surface",
-                 "Limit of Catmull's and Clark's subdivision of a mesh of polygons, one face for each quadrangle (of "
-                 "each corner where there are others): bicubic patches, ever smaller ones towards corners that do not "
-                 "have four faces, where curvatures may be unbounded.")
+  return declare(
+             Category::body, "subdivision_surface",
+             "Limit of the subdivision of a mesh of polygons by the rules of Catmull and Clark, or of a mesh of "
+             "triangles by those of Loop: polynomial patches, ever smaller ones towards corners with another number "
+             "of faces than four (six triangles), where curvatures may be unbounded.")
       .field("points", points().count(4), "corners of the mesh")
       .field("faces", indices(), "the numbers of the corners of each, counterclockwise seen from outside")
+      .field("scheme", choice({"catmull_clark", "loop"}),
+             "catmull_clark: one face for each quadrangle (of each corner where there are others); loop: one for each "
+             "triangle, more beside corners with less or more than six; 'lekalo evaluate --uv 2t+a,b' finds the "
+             "barycentric coordinates a, b in triangle t",
+             "catmull_clark")
       .optional("creases", indices(), "chains of points: the edges between them stay sharp; edges of one face are")
       .optional("corners", numbers(),
                 "numbers of points that stay where they are; ends of three creases and corners of a border do")
       .field("levels", integer().between(1, 30),
-             "steps towards a corner without four faces: what is left of a face there is 2^-levels of its sides", "10")
+             "steps towards a corner with another number of faces: what is left of a face there is 2^-levels of its "
+             "sides; 20 at most for loop",
+             "10")
       .example(
           "points: [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1, 1, 2]], faces: [[3, 2, 1, 0], [0, 1, 4], [1, 2, "
           "4], [2, 3, 4], [3, 0, 4]]")

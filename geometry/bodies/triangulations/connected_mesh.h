@@ -1,4 +1,4 @@
-// Meshes of polygons that Catmull's and Clark's rules refine (Catmull, Clark 1978; sharp edges: Hoppe et al. 1994).
+// Meshes of polygons that rules of subdivision refine, with sharp edges (Hoppe et al. 1994).
 #pragma once
 
 #include <array>
@@ -41,38 +41,27 @@ class ConnectedMesh {
   Side across(int f, int k) const { return side(corner(f, k + 1), corner(f, k)); }
 
   int sharp_edges_at(int v) const;
-  // What a vertex becomes when faces are divided again and again; all faces around it have four corners. At the end of
-  // a single sharp edge nearly so, the nearer the smaller the faces.
-  Vec3 limit(int v) const;
+  // smooth: also the end of a single sharp edge; crease: between two of them; border: where faces were left out.
+  enum class Rule { smooth, crease, corner, border };
+  Rule rule_at(int v) const;
+  const std::vector<int>& neighbours(int v) const { return neighbours_[static_cast<size_t>(v)]; }
+  const std::vector<int>& faces_at(int v) const { return faces_at_[static_cast<size_t>(v)]; }
+  // Those over sharp edges.
+  std::vector<int> crease_neighbours(int v) const;
 
-  // Each face of n corners in n of four. Child k of face f is face first_child[f] + k; its corner k is that of f.
-  struct Refined;
-  Refined refined() const;
   // The faces that share a corner with one, which becomes face 0, its corners as they are.
   PolygonMesh around(int f) const;
 
  private:
-  enum class Rule { smooth, crease, corner, border };
-  Rule rule_at(int v) const;
-  std::vector<int> crease_neighbours(int v) const;
-
   PolygonMesh mesh_;
   std::map<std::pair<int, int>, Side> sides_;
   std::vector<std::vector<int>> faces_at_, neighbours_;
 };
 
-struct ConnectedMesh::Refined {
+// A mesh after one step of subdivision: the children of face f begin at first_child[f].
+struct RefinedMesh {
   PolygonMesh mesh;
   std::vector<int> first_child;
 };
-
-// The control points of the bicubic B-spline patch that a face of four corners is in the limit; (i, j) at i * 4 + j,
-// i from its corner 0 to corner 1. Where it is none, for the sake of one corner, the point beyond that corner means
-// nothing.
-struct PatchNet {
-  std::array<Vec3, 16> points;
-  std::vector<int> irregular;  // corners
-};
-PatchNet patch_net(const ConnectedMesh& mesh, int face);
 
 }  // namespace lekalo::geometry

@@ -1,4 +1,4 @@
-#include "geometry/bodies/triangulations/quad_mesh.h"
+#include "geometry/bodies/triangulations/catmull_clark.h"
 
 #include <gtest/gtest.h>
 
@@ -42,25 +42,26 @@ PolygonMesh shaken(PolygonMesh mesh, unsigned seed) {
 
 double far(const Vec3& a, const Vec3& b) { return glm::length(a - b); }
 
-TEST(QuadMesh, CornersOfACubeComeHalfWayIn) {
+TEST(CatmullClark, CornersOfACubeComeHalfWayIn) {
   const ConnectedMesh mesh(cube());
-  for (int v = 0; v < 8; ++v) EXPECT_LT(far(mesh.limit(v), 0.5 * mesh.point(v)), 1e-15);
-  const ConnectedMesh::Refined fine = mesh.refined();
+  for (int v = 0; v < 8; ++v) EXPECT_LT(far(catmull_clark_limit(mesh, v), 0.5 * mesh.point(v)), 1e-15);
+  const RefinedMesh fine = refined_by_catmull_clark(mesh);
   EXPECT_EQ(fine.mesh.faces.size(), 24u);
   EXPECT_EQ(fine.mesh.points.size(), 26u);
   EXPECT_LT(far(fine.mesh.points[0], Vec3(-5.0 / 9)), 1e-15);
 }
 
 // A limit is the same however often the mesh has been divided.
-TEST(QuadMesh, LimitsStay) {
+TEST(CatmullClark, LimitsStay) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     PolygonMesh given = seed % 2 == 0 ? shaken(cube(), seed) : shaken(sheet(3), seed);
     if (seed % 4 == 0) given.sharp = {{0, 1}, {1, 3}, {2, 3}, {0, 2}};
     if (seed % 8 == 0) given.sharp.insert({{4, 5}, {0, 4}, {1, 5}});  // three at a corner
-    const ConnectedMesh mesh(given), once(mesh.refined().mesh), twice(once.refined().mesh);
+    const ConnectedMesh mesh(given), once(refined_by_catmull_clark(mesh).mesh),
+        twice(refined_by_catmull_clark(once).mesh);
     for (int v = 0; v < static_cast<int>(given.points.size()); ++v) {
-      EXPECT_LT(far(mesh.limit(v), once.limit(v)), 1e-14) << seed << ' ' << v;
-      EXPECT_LT(far(mesh.limit(v), twice.limit(v)), 1e-14) << seed << ' ' << v;
+      EXPECT_LT(far(catmull_clark_limit(mesh, v), catmull_clark_limit(once, v)), 1e-14) << seed << ' ' << v;
+      EXPECT_LT(far(catmull_clark_limit(mesh, v), catmull_clark_limit(twice, v)), 1e-14) << seed << ' ' << v;
     }
   }
 }
@@ -83,7 +84,7 @@ Vec3 middle_of(const PatchNet& net) {
 }
 
 // Corners of the B-spline patch are limits, inside, at a border and at its corners; its middle is that of a child.
-TEST(QuadMesh, PatchesEndInLimits) {
+TEST(CatmullClark, PatchesEndInLimits) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     PolygonMesh given = shaken(sheet(4), seed);
     if (seed % 2 == 1)  // a crease across
@@ -100,21 +101,21 @@ TEST(QuadMesh, PatchesEndInLimits) {
       if (!net.irregular.empty()) continue;
       constexpr int kAt[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
       for (int k = 0; k < 4; ++k) {
-        const Vec3 limit = mesh.limit(mesh.corner(f, k));
+        const Vec3 limit = catmull_clark_limit(mesh, mesh.corner(f, k));
         EXPECT_LT(far(corner_of(net, kAt[k][0], kAt[k][1]), limit), 1e-14) << f << ' ' << k;
         EXPECT_LT(far(corner_of(alone, kAt[k][0], kAt[k][1]), limit), 1e-14);
       }
-      const ConnectedMesh::Refined fine = part.refined();
+      const RefinedMesh fine = refined_by_catmull_clark(part);
       const ConnectedMesh children(fine.mesh);
-      EXPECT_LT(far(children.limit(children.corner(fine.first_child[0], 2)), middle_of(net)), 1e-14);
+      EXPECT_LT(far(catmull_clark_limit(children, children.corner(fine.first_child[0], 2)), middle_of(net)), 1e-14);
     }
   }
 }
 
-TEST(QuadMesh, KnowsWhatIsNoPatch) {
+TEST(CatmullClark, KnowsWhatIsNoPatch) {
   const ConnectedMesh mesh(cube());
   EXPECT_EQ(patch_net(mesh, 0).irregular.size(), 4u);
-  const ConnectedMesh::Refined fine = mesh.refined();
+  const RefinedMesh fine = refined_by_catmull_clark(mesh);
   const ConnectedMesh all(fine.mesh);
   for (int f = 0; f < 6; ++f)
     for (int k = 0; k < 4; ++k)
