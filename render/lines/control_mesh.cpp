@@ -83,7 +83,15 @@ std::optional<ControlMesh> shown_mesh(const Surface& surface, const Helper& help
   if (helper.type != "t_mesh" || is_mesh_on_surface(helper) || !spline) return std::nullopt;
   std::vector<Vec3> places;
   for (size_t i = 0; i < spline->points().size(); ++i) places.emplace_back(spline->place(static_cast<int>(i)), 0);
-  return mesh_of(*spline, places);
+  ControlMesh mesh = mesh_of(*spline, places);
+  // Lines over the seam end beyond it.
+  for (size_t k = 0; k < mesh.lines.size(); ++k) {
+    const Vec2 end = spline->end_of(spline->edges()[k]);
+    if (end == spline->place(spline->edges()[k][1])) continue;
+    mesh.lines[k].points[1] = static_cast<int>(mesh.points.size());
+    mesh.points.push_back({Vec3(end, 0), {static_cast<double>(spline->edges()[k][1])}, true});
+  }
+  return mesh;
 }
 
 bool is_mesh_on_surface(const Helper& helper) {

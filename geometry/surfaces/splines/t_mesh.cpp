@@ -68,16 +68,19 @@ struct MeshBox {
   }
 };
 
+// A closed direction has no ends.
 MeshBox box_of(const TMesh& mesh) {
   MeshBox box;
   for (const Vec2& p : mesh.vertices) box.lo = glm::min(box.lo, p), box.hi = glm::max(box.hi, p);
+  if (mesh.periods.u > 0) box.lo.x = -kInfinity, box.hi.x = kInfinity;
+  if (mesh.periods.v > 0) box.lo.y = -kInfinity, box.hi.y = kInfinity;
   return box;
 }
 
 void check_crossings(const TMesh& mesh) {
   const auto& at = mesh.vertices;
   for (const auto& [a, b] : mesh.edges) {
-    if (at[a].y != at[b].y) continue;
+    if (a >= mesh.count || at[a].y != at[b].y) continue;
     for (const auto& [c, d] : mesh.edges)
       if (at[c].x == at[d].x && at[a].x < at[c].x && at[c].x < at[b].x && at[c].y < at[a].y && at[a].y < at[d].y)
         throw FieldError("lines",
@@ -89,8 +92,8 @@ void check_crossings(const TMesh& mesh) {
 void check_vertices(const TMesh& mesh, const std::vector<std::array<int, 4>>& beside) {
   constexpr const char* kNames[] = {"right", "left", "upper", "lower"};
   const MeshBox box = box_of(mesh);
-  for (size_t k = 0; k < mesh.vertices.size(); ++k) {
-    const int i = static_cast<int>(k);
+  for (int i = 0; i < mesh.count; ++i) {
+    const auto k = static_cast<size_t>(i);
     const Vec2& p = mesh.vertices[k];
     const auto& own = beside[k];
     if (std::all_of(own.begin(), own.end(), [](int j) { return j < 0; }))
@@ -125,7 +128,7 @@ void check_connected(const TMesh& mesh, const std::vector<std::array<int, 4>>& b
     for (const int j : beside[i])
       if (j >= 0 && !reached[j]) reached[j] = true, open.push_back(j);
   }
-  for (size_t i = 0; i < reached.size(); ++i)
+  for (size_t i = 0; i < static_cast<size_t>(mesh.count); ++i)
     if (!reached[i])
       throw FieldError("lines",
                        fmt::format("{} and {} are not joined by lines", words(mesh.vertices, 0),
@@ -150,13 +153,15 @@ std::vector<double> met(const TMesh& mesh, const Vec2& p, int axis, double sign)
 // Vertices that face each other across a cell (Sederberg et al. 2003, rule 2).
 void check_facing(const TMesh& mesh, const std::vector<std::array<int, 4>>& beside) {
   const MeshBox box = box_of(mesh);
-  for (size_t i = 0; i < mesh.vertices.size(); ++i)
+  for (size_t i = 0; i < static_cast<size_t>(mesh.count); ++i)
     for (const int side : {kRight, kUp}) {
       const Vec2& p = mesh.vertices[i];
       if (beside[i][side] >= 0 || box.at_end(p, side)) continue;
       const int axis = side == kRight ? 0 : 1;
+      const std::vector<double> across = met(mesh, p, axis, 1);
+      if (across.empty()) continue;
       Vec2 facing = p;
-      facing[axis] = met(mesh, p, axis, 1).front();
+      facing[axis] = across.front();
       const auto found = std::find(mesh.vertices.begin(), mesh.vertices.end(), facing);
       if (found != mesh.vertices.end())
         throw FieldError(
@@ -181,11 +186,69 @@ std::vector<double> knots_along(const TMesh& mesh, const Vec2& p, int axis, int 
   return knots;
 }
 
+// So many periods to both sides hold all knots of functions of degree 7 in a direction in which every period has a
+// line.
+constexpr int kPeriodsBeside = 4;
+
+// How often the mesh is repeated, the mesh itself first.
+std::vector<std::array<int, 2>> shifts_of(const Periods& periods) {
+  const int u = periods.u > 0 ? kPeriodsBeside : 0, v = periods.v > 0 ? kPeriodsBeside : 0;
+  std::vector<std::array<int, 2>> shifts{{0, 0}};
+  for (int i = -u; i <= u; ++i)
+    for (int j = -v; j <= v; ++j)
+      if (i != 0 || j != 0) shifts.push_back({i, j});
+  return shifts;
+}
+
+void check_periods(const std::vector<Vec2>& vertices, const Periods& periods) {
+  Vec2 lo(kInfinity), hi(-kInfinity);
+  for (const Vec2& p : vertices) lo = glm::min(lo, p), hi = glm::max(hi, p);
+  for (const int axis : {0, 1}) {
+    const double period = axis == 0 ? periods.u : periods.v;
+    if (period > 0 && !(hi[axis] - lo[axis] < period))
+      throw FieldError(
+          "period",
+          fmt::format("the vertices go from {} = {:.6g} to {:.6g}, as far as a period of {:.6g}, or farther",
+                      axis == 0 ? "u" : "v", lo[axis], hi[axis], period),
+          "vertices of a closed mesh are not repeated at its end");
+  }
+}
+
+// Where the line from vertex a to b of one period ends: over the seam if b is not beyond a.
+std::array<int, 2> periods_passed(const TMesh& mesh, int a, int b) {
+  const Vec2 &from = mesh.vertices[a], &to = mesh.vertices[b];
+  const bool over_u = mesh.periods.u > 0 && from.y == to.y && to.x <= from.x,
+             over_v = mesh.periods.v > 0 && from.x == to.x && to.y <= from.y;
+  if (over_u && over_v)
+    throw FieldError("lines", fmt::format("a line joins {} to itself", words(mesh.vertices, a)),
+                     "a line round a mesh that is closed in both directions has two vertices at least");
+  return {over_u, over_v};
+}
+
+void add_lines(const TMesh& mesh, const std::vector<std::vector<int>>& lines, std::set<std::array<int, 2>>& edges) {
+  const std::vector<std::array<int, 2>> shifts = shifts_of(mesh.periods);
+  for (const std::vector<int>& line : lines)
+    for (size_t j = 1; j < line.size(); ++j) {
+      const std::array<int, 2> passed = periods_passed(mesh, line[j - 1], line[j]);
+      for (size_t k = 0; k < shifts.size(); ++k) {
+        const std::array<int, 2> end{shifts[k][0] + passed[0], shifts[k][1] + passed[1]};
+        const auto found = std::find(shifts.begin(), shifts.end(), end);
+        if (found == shifts.end()) continue;
+        add_line(mesh.vertices, line[j - 1] + static_cast<int>(k) * mesh.count,
+                 line[j] + static_cast<int>(found - shifts.begin()) * mesh.count, edges);
+      }
+    }
+}
+
 }  // namespace
 
-TMesh t_mesh(const std::vector<Vec3>& at, const std::vector<std::vector<int>>& lines) {
-  if (at.size() < 4) throw FieldError("at", fmt::format("a mesh has 4 vertices at least, not {}", at.size()));
+TMesh t_mesh(const std::vector<Vec3>& at, const std::vector<std::vector<int>>& lines, const Periods& periods) {
   TMesh mesh;
+  mesh.count = static_cast<int>(at.size());
+  mesh.periods = periods;
+  const int least = periods.u > 0 || periods.v > 0 ? 2 : 4;
+  if (mesh.count < least)
+    throw FieldError("at", fmt::format("a mesh has {} vertices at least, not {}", least, at.size()));
   for (const Vec3& p : at) mesh.vertices.emplace_back(p);
   join_equal(mesh.vertices, 0);
   join_equal(mesh.vertices, 1);
@@ -193,14 +256,18 @@ TMesh t_mesh(const std::vector<Vec3>& at, const std::vector<std::vector<int>>& l
     for (size_t j = 0; j < i; ++j)
       if (mesh.vertices[i] == mesh.vertices[j])
         throw FieldError("at", fmt::format("vertices {} and {} are both at ({:.6g}, {:.6g})", j, i, at[i].x, at[i].y));
-  std::set<std::array<int, 2>> edges;
   for (size_t k = 0; k < lines.size(); ++k) {
     if (lines[k].size() < 2) throw FieldError("lines", fmt::format("line {} joins less than two vertices", k));
     for (const int i : lines[k])
-      if (i < 0 || i >= static_cast<int>(at.size()))
+      if (i < 0 || i >= mesh.count)
         throw FieldError("lines", fmt::format("line {} names vertex {}, but there are 0 to {}", k, i, at.size() - 1));
-    for (size_t j = 1; j < lines[k].size(); ++j) add_line(mesh.vertices, lines[k][j - 1], lines[k][j], edges);
   }
+  check_periods(mesh.vertices, periods);
+  for (const auto& [i, j] : shifts_of(periods))
+    for (int k = 0; k < mesh.count && (i != 0 || j != 0); ++k)
+      mesh.vertices.push_back(mesh.vertices[static_cast<size_t>(k)] + Vec2(i * periods.u, j * periods.v));
+  std::set<std::array<int, 2>> edges;
+  add_lines(mesh, lines, edges);
   mesh.edges.assign(edges.begin(), edges.end());
   const auto beside = neighbours(mesh);
   check_crossings(mesh);
@@ -210,9 +277,19 @@ TMesh t_mesh(const std::vector<Vec3>& at, const std::vector<std::vector<int>>& l
   return mesh;
 }
 
+std::vector<std::array<int, 2>> TMesh::own_edges() const {
+  std::vector<std::array<int, 2>> result;
+  for (const auto& [a, b] : edges)
+    if (a < count) result.push_back({a, b % count});
+  return result;
+}
+
 std::vector<LocalKnots> inferred_knots(const TMesh& mesh, int degree) {
   std::vector<LocalKnots> all;
-  for (const Vec2& p : mesh.vertices) all.push_back({knots_along(mesh, p, 0, degree), knots_along(mesh, p, 1, degree)});
+  for (int i = 0; i < mesh.count; ++i) {
+    const Vec2& p = mesh.vertices[static_cast<size_t>(i)];
+    all.push_back({knots_along(mesh, p, 0, degree), knots_along(mesh, p, 1, degree)});
+  }
   return all;
 }
 

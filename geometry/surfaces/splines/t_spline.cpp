@@ -15,6 +15,7 @@
 
 #include "geometry/curves/splines/greville.h"
 #include "geometry/surfaces/splines/t_refinement.h"
+#include "geometry/tolerances.h"
 #include "geometry/transformed.h"
 
 namespace lekalo::geometry {
@@ -39,6 +40,27 @@ std::vector<double> all_knots(const std::vector<LocalKnots>& functions, bool alo
 }
 
 namespace {
+
+// Of a closed direction: the knots of one period, and `degree` more on both sides.
+std::vector<double> closed_knots(const std::vector<LocalKnots>& functions, bool along_u, const Interval& domain) {
+  const int degree = degree_of(functions);
+  std::ptrdiff_t at_seam = 0;
+  for (const LocalKnots& function : functions) {
+    const std::vector<double>& own = along_u ? function.u : function.v;
+    at_seam = std::max(at_seam, std::count(own.begin(), own.end(), domain.lo));
+  }
+  if (at_seam == 0) throw FieldError("domain", "it does not begin at a knot of the functions", "begin at one");
+  const std::vector<double> clamped = all_knots(functions, along_u, domain);
+  std::vector<double> period(static_cast<size_t>(at_seam), domain.lo);
+  period.insert(period.end(), clamped.begin() + degree + 1, clamped.end() - degree - 1);
+  const int n = static_cast<int>(period.size());
+  std::vector<double> knots;
+  for (int i = -degree; i <= n + degree; ++i) {
+    const double round = std::floor(static_cast<double>(i) / n);
+    knots.push_back(period[static_cast<size_t>(i - static_cast<int>(round) * n)] + round * domain.width());
+  }
+  return knots;
+}
 
 // Sums of functions are 1 to this, where they are 1.
 constexpr double kSumIsOne = 1e-14;
@@ -69,12 +91,13 @@ Refined refined(const std::vector<double>& s, const std::vector<double>& t) {
   return result;
 }
 
-// The sums of the functions times these values, as a NURBS surface on all knots.
+// The sums of the functions times these values, as a NURBS surface on all knots, closed ones in closed directions.
 NurbsSurfaceForm sum_of(const std::vector<LocalKnots>& functions, const std::vector<Vec4>& values,
-                        const Rectangle& domain) {
+                        const Rectangle& domain, const Periods& periods = {}) {
   NurbsSurfaceForm form;
   form.degree_u = form.degree_v = degree_of(functions);
-  form.knots_u = all_knots(functions, true, domain.u), form.knots_v = all_knots(functions, false, domain.v);
+  form.knots_u = (periods.u > 0 ? closed_knots : all_knots)(functions, true, domain.u);
+  form.knots_v = (periods.v > 0 ? closed_knots : all_knots)(functions, false, domain.v);
   const int columns = form.count_v();
   if (static_cast<double>(form.count_u()) * columns > kMaxNet)
     throw FieldError("points", fmt::format("all knots make a net of {} x {} points", form.count_u(), columns),
@@ -89,8 +112,23 @@ NurbsSurfaceForm sum_of(const std::vector<LocalKnots>& functions, const std::vec
   return form;
 }
 
+// A form with the knots of closed axes as the surface on them.
+NurbsSurface closed_surface(const NurbsSurfaceForm& form, const Periods& periods) {
+  const SplineAxis u(form.degree_u, form.knots_u, periods.u > 0 ? Extension::periodic : Extension::tangent),
+      v(form.degree_v, form.knots_v, periods.v > 0 ? Extension::periodic : Extension::tangent);
+  std::vector<Vec3> points;
+  std::vector<double> weights;
+  for (int i = 0; i < u.distinct(); ++i)
+    for (int j = 0; j < v.distinct(); ++j) {
+      const Vec4& p = form.points[static_cast<size_t>(i) * form.count_v() + j];
+      points.push_back(Vec3(p) / p.w);
+      weights.push_back(p.w);
+    }
+  return NurbsSurface(u, v, points, weights);
+}
+
 NurbsSurface rational_sum(const std::vector<LocalKnots>& functions, const std::vector<Vec3>& points,
-                          const std::vector<double>& weights, const Rectangle& domain) {
+                          const std::vector<double>& weights, const Rectangle& domain, const Periods& periods) {
   if (points.size() != functions.size())
     throw FieldError("points", fmt::format("{} vertices need as many points, not {}", functions.size(), points.size()));
   if (!weights.empty() && weights.size() != points.size())
@@ -101,23 +139,34 @@ NurbsSurface rational_sum(const std::vector<LocalKnots>& functions, const std::v
     if (!(w > 0)) throw FieldError("weights", fmt::format("weight {} is {}, not positive", i, w));
     values.emplace_back(w * points[i], w);
   }
-  NurbsSurfaceForm form = sum_of(functions, values, domain);
+  const RepeatedFunctions all = repeated(functions, domain, periods);
+  std::vector<Vec4> all_values;
+  for (const int i : all.of) all_values.push_back(values[static_cast<size_t>(i)]);
+  NurbsSurfaceForm form = sum_of(all.functions, all_values, domain, periods);
   for (Vec4& p : form.points) {
     if (!(p.w > 0))
       throw FieldError("domain", "somewhere in the domain all functions vanish", "a smaller domain, or more functions");
     if (std::abs(p.w - 1) <= kSumIsOne) p = Vec4(Vec3(p) / p.w, 1);
   }
-  return NurbsSurface(form);
+  return periods.u > 0 || periods.v > 0 ? closed_surface(form, periods) : NurbsSurface(form);
 }
 
 }  // namespace
 
 TSpline::TSpline(std::vector<LocalKnots> functions, std::vector<Vec3> points, std::vector<double> weights,
-                 const Rectangle& domain, std::vector<std::array<int, 2>> edges)
+                 const Rectangle& domain, std::vector<std::array<int, 2>> edges, const Periods& periods)
     : functions_(std::move(functions)),
       points_(std::move(points)),
       edges_(std::move(edges)),
-      surface_(rational_sum(functions_, points_, weights, domain)) {}
+      surface_(rational_sum(functions_, points_, weights, domain, periods)) {}
+
+Vec2 TSpline::end_of(const std::array<int, 2>& edge) const {
+  const Vec2 from = place(edge[0]);
+  Vec2 to = place(edge[1]);
+  if (periods().u > 0 && from.y == to.y && to.x <= from.x) to.x += periods().u;
+  if (periods().v > 0 && from.x == to.x && to.y <= from.y) to.y += periods().v;
+  return to;
+}
 
 Vec2 TSpline::place(int i) const {
   const size_t middle = functions_[i].u.size() / 2;
@@ -126,15 +175,17 @@ Vec2 TSpline::place(int i) const {
 
 Rectangle valid_domain(const TMesh& mesh, const std::vector<LocalKnots>& functions) {
   Vec2 lo(kInfinity), hi(-kInfinity);
-  for (const Vec2& p : mesh.vertices) lo = glm::min(lo, p), hi = glm::max(hi, p);
+  for (size_t i = 0; i < functions.size(); ++i)
+    lo = glm::min(lo, mesh.vertices[i]), hi = glm::max(hi, mesh.vertices[i]);
   const int degree = degree_of(functions);
-  Rectangle domain{{lo.x, hi.x}, {lo.y, hi.y}};
+  const bool closed_u = mesh.periods.u > 0, closed_v = mesh.periods.v > 0;
+  Rectangle domain{{lo.x, closed_u ? lo.x + mesh.periods.u : hi.x}, {lo.y, closed_v ? lo.y + mesh.periods.v : hi.y}};
   for (size_t i = 0; i < functions.size(); ++i) {
     const Vec2& p = mesh.vertices[i];
-    if (p.x == lo.x) domain.u.lo = std::max(domain.u.lo, functions[i].u[degree]);
-    if (p.x == hi.x) domain.u.hi = std::min(domain.u.hi, functions[i].u[1]);
-    if (p.y == lo.y) domain.v.lo = std::max(domain.v.lo, functions[i].v[degree]);
-    if (p.y == hi.y) domain.v.hi = std::min(domain.v.hi, functions[i].v[1]);
+    if (p.x == lo.x && !closed_u) domain.u.lo = std::max(domain.u.lo, functions[i].u[degree]);
+    if (p.x == hi.x && !closed_u) domain.u.hi = std::min(domain.u.hi, functions[i].u[1]);
+    if (p.y == lo.y && !closed_v) domain.v.lo = std::max(domain.v.lo, functions[i].v[degree]);
+    if (p.y == hi.y && !closed_v) domain.v.hi = std::min(domain.v.hi, functions[i].v[1]);
   }
   if (!(domain.u.lo < domain.u.hi && domain.v.lo < domain.v.hi))
     throw FieldError(
@@ -150,7 +201,24 @@ struct GivenFunctions {
   std::vector<LocalKnots> functions;
   std::vector<std::array<int, 2>> edges;
   Rectangle domain;
+  Periods periods;
 };
+
+Periods periods_of(const Fields& f) { return {f.u<double>("period"), f.v<double>("period")}; }
+
+// Along a closed direction the domain is one period.
+void check_domain(const GivenFunctions& given, const Interval& least_u, const Interval& least_v) {
+  const auto check = [](const Interval& domain, double period, double begin) {
+    if (period > 0 && !(std::abs(domain.width() - period) <= kSameKnot * period && domain.lo == begin))
+      throw FieldError(
+          "domain",
+          fmt::format("it is {:.6g}..{:.6g} along a direction with the period {:.6g} that begins at {:.6g}", domain.lo,
+                      domain.hi, period, begin),
+          "one period, from its beginning");
+  };
+  check(given.domain.u, given.periods.u, least_u.lo);
+  check(given.domain.v, given.periods.v, least_v.lo);
+}
 
 void check_own_knots(const Grid<double>& knots, const char* field) {
   for (int i = 0; i < knots.rows; ++i) {
@@ -185,6 +253,8 @@ GivenFunctions own_knots(const Fields& f, int degree) {
   }
   if (!f.has("domain")) throw FieldError("domain", "functions with knots of their own need a domain");
   given.domain = f.rectangle("domain");
+  given.periods = periods_of(f);
+  check_domain(given, given.domain.u, given.domain.v);
   return given;
 }
 
@@ -198,9 +268,11 @@ GivenFunctions read_functions(const Fields& f) {
   if (!of_mesh) return own_knots(f, degree);
   if (!f.has("at") || !f.has("lines"))
     throw FieldError(f.has("at") ? "lines" : "at", "a mesh has vertices and lines", "give 'at' and 'lines'");
-  const TMesh mesh = t_mesh(f.points("at"), f.indices("lines"));
-  GivenFunctions given{inferred_knots(mesh, degree), mesh.edges, {}};
-  given.domain = f.has("domain") ? f.rectangle("domain") : valid_domain(mesh, given.functions);
+  const TMesh mesh = t_mesh(f.points("at"), f.indices("lines"), periods_of(f));
+  GivenFunctions given{inferred_knots(mesh, degree), mesh.own_edges(), {}, mesh.periods};
+  const Rectangle valid = valid_domain(mesh, given.functions);
+  given.domain = f.has("domain") ? f.rectangle("domain") : valid;
+  check_domain(given, valid.u, valid.v);
   return given;
 }
 
@@ -209,6 +281,8 @@ TSpline build_within(const Fields& f) {
     if (f.has(other))
       throw FieldError(other, "with a tolerance the mesh and its points are made of the surface",
                        "leave one of them out");
+  if (periods_of(f).u > 0 || periods_of(f).v > 0)
+    throw FieldError("period", "meshes that are made for a tolerance are open", "leave 'tolerance' or 'period' out");
   if (!f.has("of")) throw FieldError("tolerance", "there is nothing to be near", "give 'of', a surface");
   const int degree = f.integer("degree");
   if (degree % 2 == 0) throw FieldError("degree", fmt::format("{} is even", degree), "1, 3, 5 or 7");
@@ -225,15 +299,17 @@ TSpline build(const Fields& f) {
     throw FieldError("weights", fmt::format("{} weights do not fit {} points", weights.size(), given.functions.size()));
   std::vector<Vec3> points;
   if (f.has("of"))
-    points = fitted_points(given.functions, weights, given.domain, *f.surface("of"));
+    points = fitted_points(given.functions, weights, given.domain, *f.surface("of"), given.periods);
   else if (f.has("points") || f.has("at"))
     points = f.points(f.has("points") ? "points" : "at");
-  return TSpline(std::move(given.functions), std::move(points), weights, given.domain, std::move(given.edges));
+  return TSpline(std::move(given.functions), std::move(points), weights, given.domain, std::move(given.edges),
+                 given.periods);
 }
 
 // (u, v, sum of some functions) over a rectangle.
 NurbsSurface graph_of_sum(const TSpline& of, const std::vector<double>& which, const std::optional<Rectangle>& part) {
   const std::vector<LocalKnots>& functions = of.functions();
+  const RepeatedFunctions all = repeated(functions, of.domain(), of.periods());
   Rectangle domain{{functions[0].u.front(), functions[0].u.back()}, {functions[0].v.front(), functions[0].v.back()}};
   for (const LocalKnots& function : functions) {
     domain.u = hull(domain.u, {function.u.front(), function.u.back()});
@@ -245,7 +321,11 @@ NurbsSurface graph_of_sum(const TSpline& of, const std::vector<double>& which, c
       throw FieldError("vertices", fmt::format("{} is not the number of a vertex, 0 to {}", i, functions.size() - 1));
     values[static_cast<size_t>(i)].z = 1;
   }
-  NurbsSurfaceForm form = sum_of(functions, values, part.value_or(domain));
+  if (of.periods().u > 0) domain.u = of.domain().u;
+  if (of.periods().v > 0) domain.v = of.domain().v;
+  std::vector<Vec4> all_values;
+  for (const int i : all.of) all_values.push_back(values[static_cast<size_t>(i)]);
+  NurbsSurfaceForm form = sum_of(all.functions, all_values, part.value_or(domain));
   for (int i = 0; i < form.count_u(); ++i)
     for (int j = 0; j < form.count_v(); ++j) {
       Vec4& p = form.points[static_cast<size_t>(i) * form.count_v() + j];
@@ -279,6 +359,11 @@ TypeDeclaration t_spline_type() {
           "tolerance", length().positive(),
           "of `of`, without a mesh: one is made that is fine where it has to be, until at places of its cells the "
           "two are nowhere farther apart")
+      .field(
+          "period", number().non_negative().for_each_direction(),
+          "above 0 the mesh is closed: after so much of u or v the vertices, which are not repeated, come again, and "
+          "the lines, which run towards higher parameters, go on from the last vertex over the seam to the first",
+          "0")
       .field("cells", integer().between(1, 100).for_each_direction(), "of the mesh that is made: how many at first",
              "4")
       .optional("weights", numbers(), "one for each point; all 1 when left out")

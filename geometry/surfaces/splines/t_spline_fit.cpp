@@ -13,7 +13,7 @@
 namespace lekalo::geometry {
 
 std::vector<Vec3> fitted_points(const std::vector<LocalKnots>& functions, const std::vector<double>& weights,
-                                const Rectangle& domain, const Surface& of) {
+                                const Rectangle& domain, const Surface& of, const Periods& periods) {
   const Rectangle all = of.domain();
   if (!(all.u.contains(domain.u.lo) && all.u.contains(domain.u.hi) && all.v.contains(domain.v.lo) &&
         all.v.contains(domain.v.hi)))
@@ -24,9 +24,11 @@ std::vector<Vec3> fitted_points(const std::vector<LocalKnots>& functions, const 
                     all.u.lo, all.u.hi, all.v.lo, all.v.hi, domain.u.lo, domain.u.hi, domain.v.lo, domain.v.hi),
         "draw the mesh over the surface's own parameters");
   const int degree = static_cast<int>(functions.front().u.size()) - 2, count = static_cast<int>(functions.size());
+  const RepeatedFunctions everywhere = repeated(functions, domain, periods);
+  const std::vector<LocalKnots>& all_functions = everywhere.functions;
   // Twice as many places as a spline on all knots has points, two in each span at least.
   const auto places = [&](bool along_u, const Interval& range) {
-    const std::vector<double> knots = all_knots(functions, along_u, range);
+    const std::vector<double> knots = all_knots(all_functions, along_u, range);
     std::vector<double> ends;
     std::unique_copy(knots.begin(), knots.end(), std::back_inserter(ends));
     const int spans = static_cast<int>(ends.size()) - 1, of_all = static_cast<int>(knots.size()) - degree - 1;
@@ -56,11 +58,16 @@ std::vector<Vec3> fitted_points(const std::vector<LocalKnots>& functions, const 
   std::vector<double> sums(height, 0.0);
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<int> fitted;  // functions that are not zero all over the domain
-  for (int i = 0; i < count; ++i) {
-    const auto a = values(functions[i].u, at_u), b = values(functions[i].v, at_v);
+  std::vector<int> columns_of(count, -1);
+  for (size_t r = 0; r < all_functions.size(); ++r) {
+    const int i = everywhere.of[r];
+    const auto a = values(all_functions[r].u, at_u), b = values(all_functions[r].v, at_v);
     if (a.empty() || b.empty()) continue;
-    const int column = static_cast<int>(fitted.size());
-    fitted.push_back(i);
+    int& column = columns_of[i];
+    if (column < 0) {
+      column = static_cast<int>(fitted.size());
+      fitted.push_back(i);
+    }
     for (const auto& [k, x] : a)
       for (const auto& [l, y] : b) {
         const size_t row = k * columns + l;
