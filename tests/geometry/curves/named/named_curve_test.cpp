@@ -6,7 +6,10 @@
 #include "geometry/curves/analytic/formula_curve.h"
 #include "geometry/curves/operations/nurbs_of.h"
 #include "geometry/describe.h"
+#include "geometry/surfaces/swept/extrusion.h"
+#include "geometry/surfaces/swept/revolution.h"
 #include "tests/geometry/curves/curve_checks.h"
+#include "tests/geometry/surfaces/surface_checks.h"
 
 namespace lekalo::geometry::named_curve_test {
 namespace {
@@ -107,6 +110,17 @@ TEST(NamedCurve, rational_ones_are_nurbs_curves) {
   check_rational(built(fields_of("cassini_oval", {{"a", 1.2}, {"c", 1.2}})), 4);
   check_rational(built(fields_of("trident", {{"a", 2}, {"b", -1}, {"c", 0.3}, {"d", -1}})), 3);
   EXPECT_FALSE(dynamic_cast<const FormulaCurve&>(*built(fields_of("sinusoidal_spiral", {{"m", 0.4}}))).rational());
+}
+
+// Surfaces of them are made of exact rational pieces, whose hits are those of the oracle.
+TEST(NamedCurve, surfaces_of_rational_ones_meet_the_general_checks) {
+  for (const char* name : {"strophoid", "lemniscate_of_bernoulli", "kappa", "lissajous", "limacon_of_pascal"}) {
+    SCOPED_TRACE(name);
+    const ExtrusionSurface wall(built(fields_of(name)), {0.3, 0.2, 2});
+    EXPECT_TRUE(wall.as_nurbs());
+    checks::check_surface(wall);
+  }
+  checks::check_surface(RevolutionSurface(built(fields_of("witch_of_agnesi")), {Vec3(0), {1, 0, 0}}, 2));
 }
 
 TEST(NamedCurve, wrong_parameters_are_told) {
