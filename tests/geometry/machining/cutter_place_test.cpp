@@ -12,11 +12,10 @@
 #include "geometry/surfaces/analytic/sphere.h"
 #include "geometry/surfaces/analytic/torus.h"
 #include "tests/geometry/curves/curve_checks.h"
+#include "tests/geometry/machining/triples.h"
 
 namespace lekalo::geometry {
 namespace {
-
-Vec3 vec(const Triple<double>& a) { return {a.x, a.y, a.z}; }
 
 const Rectangle kPart{{0.2, 1.9}, {0.1, 1.0}};
 SurfacePtr ring() { return std::make_shared<TorusSurface>(Frame{}, 5.0, 2.0, kPart); }

@@ -9,11 +9,10 @@
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/surfaces/analytic/sphere.h"
 #include "geometry/surfaces/analytic/torus.h"
+#include "tests/geometry/machining/triples.h"
 
 namespace lekalo::geometry {
 namespace {
-
-Vec3 vec(const Triple<double>& a) { return {a.x, a.y, a.z}; }
 
 SurfaceContact contact_on(const SurfacePtr& surface, const Cutter& cutter, const ToolAxis& axis) {
   SurfaceContact contact;
