@@ -128,7 +128,7 @@ TypeDeclaration attribute_type() {
       .field("of", reference({Category::curve, Category::surface, Category::body, Category::mesh, Category::shape}),
              "name of the element")
       .field("name", text(), "of the attribute: density, temperature, ...")
-      .example("of: part, name: temperature")
+      .example("of: my_body, name: temperature")
       .built_by([](const Fields& f) {
         return QuantityOfElement{f.text("name"), {}};
       });
@@ -139,7 +139,7 @@ TypeDeclaration mass_type() {
                  "Mass of a body in kilograms: its volume times its attribute `density`; without info.unit a scene "
                  "unit is a metre.")
       .field("of", reference({Category::body}), "name of the body")
-      .example("of: part")
+      .example("of: my_body")
       .built_by([](const Fields& f) {
         const BodyPtr body = f.body("of");
         if (!body->is_closed()) throw FieldError("of", "this body has free borders: it has no volume");

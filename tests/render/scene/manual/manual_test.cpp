@@ -28,6 +28,13 @@ bool offers(const std::string& type, const std::string& helper) {
   return false;
 }
 
+// The example of the first type that offers it.
+std::string example_offering(const std::string& helper) {
+  for (const TypeDeclaration& one : all_types())
+    if (offers(one.name, helper)) return example_of(one);
+  return "{}";
+}
+
 // A scene with the example where things of its category stand.
 std::string scene_of(const TypeDeclaration& type, const std::string& example) {
   const bool curve = type.helpers.empty() && (type.name == "de_casteljau" || type.name == "control_polygon");
@@ -49,18 +56,18 @@ std::string scene_of(const TypeDeclaration& type, const std::string& example) {
     case Category::panel:
       return kNamed + "panels: { a: " + example + " }\n";
     case Category::quantity:
-      return kNamed + "parameters: { a: " + example + " }\n";
+      return "info: { unit: m }\n" + kNamed + "parameters: { a: " + example +
+             " }\nattributes: { of: my_body, density: 1000, temperature: 20 }\n";
     case Category::annotation:
       return kNamed + "drawing: { annotations: [" + example + "] }\n";
     case Category::helper:
-      return std::string("geometry:\n  c: ") +
+      return kNamed + "  c: " +
              (curve                                ? "{ type: bezier_curve, points: [[0, 0], [1, 1], [2, 0]] }"
               : offers("nurbs_curve", type.name)   ? "{ type: nurbs_curve, points: [[0, 0], [1, 1], [2, 0], [3, 1]] }"
               : offers("triangulation", type.name) ? "{ type: triangulation, points: [[0, 0], [1, 0], [0, 1]] }"
               : offers("nurbs_surface", type.name)
                   ? "{ type: nurbs_surface, degree: 1, points: [[[0, 0], [0, 1]], [[1, 0], [1, 1, 1]]] }"
-                  : "{ type: t_spline, degree: 1, at: [[0, 0], [1, 0], [0, 1], [1, 1]], lines: [[0, 1], [2, 3], [0, "
-                    "2], [1, 3]] }") +
+                  : example_offering(type.name)) +
              "\nobjects: { shape: c, show: { " + example + " } }\n";
     default:
       return kNamed + "  a: " + example + "\n";
@@ -82,9 +89,10 @@ TEST(Manual, ExamplesAreScenes) {
   }
 }
 
-TEST(Manual, NamesOfTypesAreUnique) {
-  std::set<std::string> names;
-  for (const TypeDeclaration& type : all_types()) EXPECT_TRUE(names.insert(type.name).second) << type.name;
+TEST(Manual, NamesOfOneCategoryAreUnique) {
+  std::set<std::pair<Category, std::string>> names;
+  for (const TypeDeclaration& type : all_types())
+    EXPECT_TRUE(names.emplace(type.category, type.name).second) << type.name;
 }
 
 // Ranges of angles are declared in radians and read in degrees.
