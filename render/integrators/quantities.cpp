@@ -13,6 +13,7 @@
 #include "geometry/spatial/nearest_points.h"
 #include "render/model/attributes.h"
 #include "render/model/objects.h"
+#include "render/model/section_faces.h"
 
 namespace lekalo::render {
 
@@ -213,7 +214,8 @@ Quantity of_attribute(const Fields& f) {
   Quantity q;
   q.value = [table, name](const AnalysedPlace& at) -> Value {
     if (!at.object) return std::nullopt;
-    const auto found = table->of({identity(at.object->shape), ElementId::Kind::face, at.point.face}, name);
+    const void* thing = identity(before_section(*at.object));
+    const auto found = table->of({thing, ElementId::Kind::face, face_before_section(*at.object, at.point.face)}, name);
     return found ? Value(found->value) : std::nullopt;
   };
   return q;

@@ -10,7 +10,7 @@
 #include "geometry/shapes/csg/csg.h"
 #include "geometry/shapes/csg/half_space.h"
 #include "geometry/transformed.h"
-#include "render/model/face_materials.h"
+#include "render/model/section_faces.h"
 #include "render/model/text_template.h"
 
 namespace lekalo::render {
@@ -142,16 +142,6 @@ ShapePtr with_caps(const ShapePtr& solid, Object& object) {
   return std::make_shared<Csg>(Csg::Operation::subtract, operands);
 }
 
-// What is left of a body's faces carries their numbers as a crossing of its first leaf does (csg.h).
-void renumber_faces(Object& object) {
-  const FaceMaterials* faced = face_materials(object);
-  if (!faced) return;
-  const int count = leaves(std::get<ShapePtr>(object.shape));
-  std::map<int, MaterialPtr> faces;
-  for (const auto& [face, material] : faced->faces()) faces[face * count] = material;
-  object.material = std::make_shared<FaceMaterials>(faced->body(), std::move(faces));
-}
-
 class Cutting {
  public:
   explicit Cutting(const Section& section) : section_(section) {}
@@ -182,10 +172,9 @@ class Cutting {
     const ShapePtr tool = tool_of(section_, box, to_world);
     solid = with_caps(solid, object);
     object.first_cut_leaf = leaves(solid);
-    const bool was_body = std::holds_alternative<BodyPtr>(object.shape);
     object.shape = ShapePtr(std::make_shared<Csg>(Csg::Operation::subtract, std::vector<ShapePtr>{solid, tool}));
     object.representation = Representation::direct;
-    if (was_body) renumber_faces(object);
+    renumber_face_materials(object);
     if (!object.cut_faces) object.cut_faces = section_.faces;
     if (object.cut_faces->own_angle)
       object.cut_faces->hatching.angle = kAngles[count_++ % std::size(kAngles)] * kPi / 180;

@@ -134,6 +134,21 @@ class Attributes(ProgramTest):
             fills[name] = [line for line in self.bytes_of(f"{name}.svg").decode().splitlines() if "fill=" in line]
         self.assertEqual(fills["face"], fills["body"])
 
+    def test_an_object_with_a_section_of_its_own(self):
+        """Its faces have their materials; in colours of an attribute the cut has what the body has."""
+        cut = "section: { planes: { through: [0, 1, 0], normal: -y }, hatch: none }"
+        self.write("scene.yaml", PART + MATERIALS + "attributes: [{ of: part.z_max, material: paint }, { of: part, material: wood }]\n"
+                   f"objects: [{{ shape: part, {cut} }}]\ncamera: {{ view: isometric }}\ndrawing: {{ ground: fill }}\n")
+        self.run_program("draw", "scene.yaml", "-o", "x.svg", "--quiet")
+        fills = set(re.findall('fill="(#[0-9a-f]+)"', self.bytes_of("x.svg").decode()))
+        self.assertEqual(fills, {"#ffffff", "#aa866f", "#506fc5"})
+        for view, value in ("top", 8), ("front", 3):
+            self.write("scene.yaml", PART + "attributes: [{ of: part, temperature: 3 }, { of: part.z_max, temperature: 8 }]\n"
+                       f"objects: [{{ shape: part, {cut} }}]\ncamera: {{ view: {view} }}\n"
+                       "integrator: { type: analysis, attribute: temperature }\nimage: { size: [8, 8], samples: 1 }\n")
+            self.run_program("render", "scene.yaml", "-o", "x.exr", "--quiet")
+            self.assertEqual(read_exr(self.bytes_of("x.exr"))[1]["temperature"][4 * 8 + 4], value)
+
     def test_fills_of_faces(self):
         """Each face of a drawing is filled in the colour of its own material, with exact borders."""
         self.write("scene.yaml", PART + MATERIALS + "attributes: { of: part.z_max, material: paint }\n"

@@ -14,6 +14,7 @@
 #include "geometry/queries/measures/mass_properties.h"
 #include "render/materials/materials.h"
 #include "render/model/face_materials.h"
+#include "render/model/section_faces.h"
 #include "render/scene/build/builder.h"
 #include "render/scene/types/sections.h"
 #include "render/scene/values/words.h"
@@ -221,14 +222,14 @@ std::optional<std::vector<NamedElement>> Builder::elements_selected(const Value&
 }
 
 MaterialPtr Builder::material_of_shape(const Entity& shape) {
-  const AttributeTable& table = attributes();
-  const ElementAttributes* said = table.own({identity(shape)});
+  const ElementAttributes* said = attributes().own({identity(shape)});
   return said ? said->material : nullptr;
 }
 
 void Builder::dress(Object& object) {
   const AttributeTable& table = attributes();
-  const void* thing = identity(object.shape);
+  const Entity shape = before_section(object);
+  const void* thing = identity(shape);
   if (!table.speaks_of(thing)) return;
   const auto transparent = [&](const MaterialPtr& material, const ElementId& id) {
     const auto found = table.of(id, "transparency");
@@ -254,10 +255,12 @@ void Builder::dress(Object& object) {
   object.material = transparent(plain, {thing});
   if (!of_faces.empty()) object.material = std::make_shared<FaceMaterials>(object.material, std::move(of_faces));
   // The faces that are numbered are those of its boundary.
-  if (const auto* shape = std::get_if<geometry::ShapePtr>(&object.shape); shape && has_faces) {
-    object.shape = geometry::boundary_of(*shape);
-    attributes_->copy(thing, identity(object.shape));
+  if (const auto* solid = std::get_if<geometry::ShapePtr>(&shape); solid && has_faces) {
+    const BodyPtr boundary = geometry::boundary_of(*solid);
+    attributes_->copy(thing, boundary.get());
+    put_before_section(object, boundary);
   }
+  renumber_face_materials(object);
 }
 
 std::optional<MeasuredQuantity> Builder::quantity_of_element(const QuantityOfElement& asked, const Value& map) {

@@ -7,6 +7,7 @@
 
 #include "geometry/expression/nearest_name.h"
 #include "render/cameras/cameras.h"
+#include "render/model/section_faces.h"
 #include "render/scene/build/builder.h"
 #include "render/scene/types/panels.h"
 #include "render/scene/types/sections.h"
@@ -164,7 +165,7 @@ MaterialPtr Builder::default_material() {
 // one get that of the object.
 void Builder::fill_materials(std::vector<Object>& objects) {
   for (Object& object : objects) {
-    if (!object.material) object.material = material_of_shape(object.shape);
+    if (!object.material) object.material = material_of_shape(before_section(object));
     if (!object.material) object.material = default_material();
     if (auto* group = std::get_if<GroupPtr>(&object.shape)) *group = in_material(*group, object.material);
     dress(object);
@@ -178,7 +179,7 @@ GroupPtr Builder::in_material(const GroupPtr& group, const MaterialPtr& material
   if (result) return result;
   auto filled = std::make_shared<Group>(*group);
   for (Object& member : filled->objects) {
-    if (!member.material) member.material = material_of_shape(member.shape);
+    if (!member.material) member.material = material_of_shape(before_section(member));
     if (!member.material) member.material = material;
     if (auto* inner = std::get_if<GroupPtr>(&member.shape)) *inner = in_material(*inner, member.material);
     dress(member);
