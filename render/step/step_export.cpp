@@ -133,8 +133,16 @@ class Exporting {
   }
 
   void add_entity(const StepShape& shape) {
+    face_colors_ = shape.face_colors;
+    colored_faces_.clear();
     const auto colored = [&](std::string item) {
-      if (shape.color) styled_.push_back(style(item, *shape.color));
+      if (!shape.color) return item;
+      styled_.push_back(writer_.add(fmt::format("STYLED_ITEM('color',({}),{})", style(*shape.color), item)));
+      const std::string whole = styled_.back();
+      for (const auto& [face, color] : colored_faces_)
+        styled_.push_back(
+            writer_.add(fmt::format("OVER_RIDING_STYLED_ITEM('color',({}),{},{})", style(color), face, whole)));
+      colored_faces_.clear();
       return item;
     };
     if (const auto* body = std::get_if<BodyPtr>(&shape.entity)) {
@@ -254,8 +262,11 @@ class Exporting {
       }
       // The face looks along r_u x r_v, or against it.
       const bool along = face.forward == (face.surface->normal_sign() > 0);
-      return w.add(fmt::format("ADVANCED_FACE({},{},{},{})", step_string(face.origin.text()), step_list(bounds),
-                               surface.name, along == surface.forward ? ".T." : ".F."));
+      std::string item = w.add(fmt::format("ADVANCED_FACE({},{},{},{})", step_string(face.origin.text()),
+                                           step_list(bounds), surface.name, along == surface.forward ? ".T." : ".F."));
+      if (const auto color = file_.face_colors_.find(f); color != file_.face_colors_.end())
+        file_.colored_faces_.emplace_back(item, color->second);
+      return item;
     }
 
     Exporting& file_;
@@ -278,7 +289,7 @@ class Exporting {
     ++products_;
   }
 
-  std::string style(const std::string& item, const Vec3& color) {
+  std::string style(const Vec3& color) {
     // More digits than a screen has shades.
     const auto part = [](double x) { return step_real(std::round(x * 1e6) / 1e6); };
     const std::string rgb =
@@ -288,8 +299,7 @@ class Exporting {
     const std::string area = writer_.shared(fmt::format("SURFACE_STYLE_FILL_AREA({})", fill));
     const std::string side = writer_.shared(fmt::format("SURFACE_SIDE_STYLE('',({}))", area));
     const std::string usage = writer_.shared(fmt::format("SURFACE_STYLE_USAGE(.BOTH.,{})", side));
-    const std::string assigned = writer_.shared(fmt::format("PRESENTATION_STYLE_ASSIGNMENT(({}))", usage));
-    return writer_.add(fmt::format("STYLED_ITEM('color',({}),{})", assigned, item));
+    return writer_.shared(fmt::format("PRESENTATION_STYLE_ASSIGNMENT(({}))", usage));
   }
 
   std::string unit_;
@@ -298,6 +308,8 @@ class Exporting {
   std::string product_context_, definition_context_, units_;
   std::string name_;
   std::vector<std::string> styled_;
+  std::map<int, Vec3> face_colors_;                          // of the shape that is written
+  std::vector<std::pair<std::string, Vec3>> colored_faces_;  // its faces that are written
   std::map<std::string, Fit> fits_;
   std::vector<std::string> notes_;
   int products_ = 0;

@@ -2,6 +2,7 @@
 // CAD systems.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,8 +16,9 @@ struct StepShape {
   std::string name;
   Entity entity;
   geometry::Affine to_world;
-  std::optional<geometry::Vec3> color;  // sRGB, 0 to 1
-  std::string no_boundary;              // why a solid that might have one has no boundary here
+  std::optional<geometry::Vec3> color;        // sRGB, 0 to 1
+  std::map<int, geometry::Vec3> face_colors;  // of a body's faces that have their own
+  std::string no_boundary;                    // why a solid that might have one has no boundary here
 };
 
 struct StepFile {

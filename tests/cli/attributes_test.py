@@ -167,6 +167,18 @@ class Attributes(ProgramTest):
                        for mesh in model["meshes"] for primitive in mesh["primitives"] if primitive.get("mode", 4) == 4}
         self.assertEqual(of_material, {"wood": 30, "paint": 6})  # three corners of two triangles of each face
 
+    def test_step(self):
+        """The face's colour overrides that of the solid (ISO 10303-46)."""
+        self.write("scene.yaml", PART + MATERIALS + "attributes: { of: part.z_max, material: paint }\n"
+                   "objects: [{ shape: part, material: wood }]\n")
+        self.run_program("export", "scene.yaml", "-o", "x.step", "--quiet")
+        entities = dict(re.findall(r"^(#\d+)=(.*);$", self.bytes_of("x.step").decode(), re.MULTILINE))
+        styled = [text for text in entities.values() if text.startswith("OVER_RIDING_STYLED_ITEM")]
+        self.assertEqual(len(styled), 1)
+        face, whole = re.findall(r"#\d+", styled[0])[1:]
+        self.assertTrue(entities[face].startswith("ADVANCED_FACE('z_max'"))
+        self.assertTrue(entities[whole].startswith("STYLED_ITEM"))
+
     def test_json(self):
         self.write("scene.yaml", PART + MATERIALS + "attributes: [{ of: part.z_max, material: paint }, { of: part, density: 2 }]\n")
         self.run_program("export", "scene.yaml", "-o", "x.json", "--quiet")

@@ -97,10 +97,8 @@ int export_step(const Options& options, const std::string& output) {
   check_inputs_stay(scene, {output});
   std::vector<render::StepShape> shapes;
   std::set<std::string> notes;
-  const auto color_of = [](const render::Object& object) -> std::optional<geometry::Vec3> {
-    const render::MaterialPtr material = render::body_material(object);
-    if (!material) return std::nullopt;
-    const geometry::Vec3 linear = rgb(material->albedo(render::SurfacePoint(), render::Wavelengths{}));
+  const auto color_of = [](const render::Material& material) {
+    const geometry::Vec3 linear = rgb(material.albedo(render::SurfacePoint(), render::Wavelengths{}));
     geometry::Vec3 color(0);
     for (int i = 0; i < 3; ++i) color[i] = render::srgb_encode(std::clamp(linear[i], 0.0, 1.0));
     return color;
@@ -115,13 +113,23 @@ int export_step(const Options& options, const std::string& output) {
     } else {
       std::string no_boundary;
       const render::Entity shape = by_boundary(object.shape, &no_boundary);
-      shapes.push_back({object.name, shape, moved, color_of(object), no_boundary});
+      render::StepShape& written = shapes.emplace_back();
+      written.name = object.name;
+      written.entity = shape;
+      written.to_world = moved;
+      written.no_boundary = no_boundary;
+      if (const render::MaterialPtr material = render::body_material(object)) written.color = color_of(*material);
+      if (const render::FaceMaterials* faced = render::face_materials(object))
+        for (const auto& [face, material] : faced->faces()) written.face_colors[face] = color_of(*material);
     }
   };
   for (const std::string& name : options.names) {
     std::string no_boundary;
     const render::Entity shape = by_boundary(find_geometry(scene, name), &no_boundary);
-    shapes.push_back({name, shape, Affine(), {}, no_boundary});
+    render::StepShape& written = shapes.emplace_back();
+    written.name = name;
+    written.entity = shape;
+    written.no_boundary = no_boundary;
   }
   if (options.names.empty())
     for (const render::Object& object : scene.model->objects) add(object, Affine());
