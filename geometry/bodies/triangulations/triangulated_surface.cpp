@@ -19,6 +19,8 @@ SpatialTriangulation triangulation_of(const Fields& f) {
   }
   for (const char* field : {"triangles", "normals", "parameters", "longest"})
     if (f.has(field)) throw FieldError(field, "the surface has its own", "leave it out");
+  for (const char* field : {"joined_by", "largest_hole", "flattened"})
+    if (f.given(field)) throw FieldError(field, "it is for 'points'", "leave it out");
   if (!f.has("cells.u")) throw FieldError("of", "how many cells?", "cells: { u: 24, v: 16 }");
   const SurfacePtr surface = f.surface("of");
   if (!surface->bounded()) throw FieldError("of", "the surface is unbounded", "take a part of it");
@@ -80,6 +82,17 @@ TypeDeclaration triangulated_surface_type() {
       .optional("parameters", parameter_points(),
                 "(u, v) of each point; when left out x and y without 'triangles', else each triangle has its own")
       .optional("longest", length().positive(), "of Delaunay's triangles those with a longer side are left out")
+      .field("joined_by", choice({"parameters", "neighbours"}),
+             "how points without 'triangles' are: Delaunay's of their parameters; or neighbours as they lie in space, "
+             "by the shortest edges first, also round closed shapes. A shape is turned so that its highest point looks "
+             "up",
+             "parameters")
+      .field("largest_hole", integer().between(3, 100),
+             "of neighbours: openings between them with so many sides are closed, larger ones are borders", "8")
+      .field("flattened", boolean(),
+             "of neighbours that make one sheet: its border goes round the unit circle and the parameters inside keep "
+             "angles as well as can be (mean value coordinates)",
+             "false")
       .optional("of", reference({Category::surface}), "a bounded surface, whose points and normals are taken")
       .optional("cells", integer().between(1, 1000).for_each_direction(), "of the surface's rectangle along u and v")
       .field("patch", choice({"pn", "balanced", "hermite", "clough_tocher", "flat"}),

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <map>
 
+#include "geometry/bodies/triangulations/flattening.h"
 #include "geometry/composition.h"
 #include "geometry/mesh.h"
 #include "geometry/surfaces/triangles/parameter_triangle.h"
 #include "geometry/surfaces/triangles/planar_cells.h"
-#include "geometry/tessellation/triangulation.h"
+#include "geometry/tessellation/cloud_triangulation.h"
 
 namespace lekalo::geometry {
 
@@ -138,7 +139,33 @@ void set_mean_normals(SpatialTriangulation& t) {
       t.normals[static_cast<size_t>(triangle.point[i])] = mesh.normals[static_cast<size_t>(triangle.normal[i])];
 }
 
-SpatialTriangulation triangulation_of_points(const Fields& f) {
+// Of points as they lie in space.
+static SpatialTriangulation triangulation_of_neighbours(const Fields& f) {
+  for (const char* field : {"triangles", "parameters"})
+    if (f.has(field)) throw FieldError(field, "the neighbours in space are joined", "leave it out, or 'joined_by'");
+  SpatialTriangulation result;
+  result.points = f.points("points");
+  CloudOptions options;
+  if (f.has("longest")) options.longest = f.number("longest");
+  options.largest_hole = f.integer("largest_hole");
+  std::vector<Vec2> uv;
+  try {
+    result.triangles = triangulation_of_cloud(result.points, options).triangles;
+    if (f.boolean("flattened")) uv = flattened_to_circle(result.points, result.triangles);
+  } catch (const std::invalid_argument& error) {
+    throw FieldError("points", error.what(), "more points, or 'triangles'");
+  }
+  if (uv.empty())
+    set_own_parameters(result);
+  else
+    set_parameters(result, uv);
+  return result;
+}
+
+static SpatialTriangulation triangulation_over_plane(const Fields& f) {
+  for (const char* field : {"largest_hole", "flattened"})
+    if (f.given(field))
+      throw FieldError(field, "it belongs to points that are joined as they lie in space", "joined_by: neighbours");
   SpatialTriangulation result;
   result.points = f.points("points");
   const bool has_parameters = f.has("parameters");
@@ -154,6 +181,12 @@ SpatialTriangulation triangulation_of_points(const Fields& f) {
     set_own_parameters(result);
   else
     set_parameters(result, uv);
+  return result;
+}
+
+SpatialTriangulation triangulation_of_points(const Fields& f) {
+  SpatialTriangulation result =
+      f.text("joined_by") == "neighbours" ? triangulation_of_neighbours(f) : triangulation_over_plane(f);
   if (f.has("normals"))
     set_given_normals(result, f.points("normals"));
   else

@@ -16,7 +16,8 @@ struct SpatialTriangulation {
   std::vector<Vec3> du, dv;
 };
 
-// Of a mesh of points: the fields points, triangles, normals, parameters, longest. Throws FieldError.
+// Of a mesh of points: the fields points, triangles, normals, parameters, longest, joined_by, largest_hole, flattened.
+// Throws FieldError.
 SpatialTriangulation triangulation_of_points(const Fields& fields);
 
 // Of so many cells of a surface's rectangle, each cut by the same diagonal; opposite sides that are one share their
