@@ -17,6 +17,7 @@
   X(dms_surface_type)          \
   X(triangulated_surface_type) \
   X(subdivision_surface_type)  \
+  X(cloud_surface_type)        \
   X(extrusion_body_type)       \
   X(revolution_body_type)      \
   X(translation_body_type)     \

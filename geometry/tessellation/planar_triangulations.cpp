@@ -296,7 +296,7 @@ double circumcenter_parameter(const Vec2& a, const Vec2& b, const Vec2& v) {
   return area == 0 ? kInfinity : 0.5 * glm::dot(from_b, from_a) / area;
 }
 
-std::vector<IndexTriangle> greedy_triangulation(std::span<const Vec2> points) {
+std::vector<std::pair<int, int>> greedy_edges(std::span<const Vec2> points) {
   const std::vector<int> vertices = distinct(points);
   std::vector<std::pair<double, Edge>> pairs;
   for (const int a : vertices)
@@ -306,34 +306,47 @@ std::vector<IndexTriangle> greedy_triangulation(std::span<const Vec2> points) {
   // All triangulations have so many edges, those of points on one line less.
   const size_t all = 3 * vertices.size() - 3 - count_on_hull(points, vertices);
   KeptEdges kept(points, vertices);
+  std::vector<Edge> result;
   for (const auto& [length, e] : pairs) {
-    if (kept.edges().size() == all) break;
-    if (kept.allows(e)) kept.add(e);
+    if (result.size() == all) break;
+    if (!kept.allows(e)) continue;
+    kept.add(e);
+    result.push_back(e);
   }
-  return triangles_of(points, kept.edges(), vertices);
+  return result;
 }
 
-std::vector<IndexTriangle> optimal_triangulation(std::span<const Vec2> points) {
+std::vector<IndexTriangle> greedy_triangulation(std::span<const Vec2> points, std::optional<int> steps) {
+  std::vector<Edge> edges = greedy_edges(points);
+  if (steps && static_cast<size_t>(*steps) < edges.size()) edges.resize(static_cast<size_t>(*steps));
+  return triangles_of(points, {edges.begin(), edges.end()}, distinct(points));
+}
+
+std::vector<IndexTriangle> optimal_triangulation(std::span<const Vec2> points, std::optional<int> steps) {
   if (points.size() > kMaxOptimalPoints)
     throw std::invalid_argument(
         "the optimal triangulation is sought among all: that takes too long for so many points");
-  std::vector<IndexTriangle> start = greedy_triangulation(points);
+  using Triangles = std::vector<IndexTriangle>;
+  Triangles start = greedy_triangulation(points);
   for (IndexTriangle& t : start) t = from_least(t[0], t[1], t[2]);
   std::sort(start.begin(), start.end());
-  std::set<std::vector<IndexTriangle>> known{start};
-  std::vector<std::vector<IndexTriangle>> waiting{start};
-  std::pair<double, std::vector<IndexTriangle>> best{length_of_edges(points, start), start};
-  while (!waiting.empty()) {
-    const std::vector<IndexTriangle> here = std::move(waiting.back());
-    waiting.pop_back();
+  // Each with the one that a flip led from, by as few flips as can be.
+  std::map<Triangles, Triangles> before{{start, {}}};
+  std::vector<Triangles> reached{start};
+  std::pair<double, Triangles> best{length_of_edges(points, start), start};
+  for (size_t k = 0; k < reached.size(); ++k) {
+    const Triangles here = reached[k];
     for (const Flip& flip : possible_flips(points, here)) {
-      std::vector<IndexTriangle> next = flipped(here, flip);
-      if (!known.insert(next).second) continue;
+      Triangles next = flipped(here, flip);
+      if (!before.emplace(next, here).second) continue;
       best = std::min(best, {length_of_edges(points, next), next});
-      waiting.push_back(std::move(next));
+      reached.push_back(std::move(next));
     }
   }
-  return best.second;
+  std::vector<Triangles> way{best.second};
+  while (way.back() != start) way.push_back(before.at(way.back()));
+  const size_t flips = way.size() - 1;
+  return way[flips - std::min(flips, steps ? static_cast<size_t>(*steps) : flips)];
 }
 
 std::vector<IndexTriangle> triangulation_by_flips(std::span<const Vec2> points, std::optional<int> steps) {

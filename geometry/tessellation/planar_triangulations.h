@@ -15,13 +15,15 @@ namespace lekalo::geometry {
 double circumcenter_parameter(const Vec2& a, const Vec2& b, const Vec2& v);
 
 // Edges by increasing length (ties by index), each kept that crosses none kept before. O(n^2 log n): most of it sorts
-// the pairs.
-std::vector<IndexTriangle> greedy_triangulation(std::span<const Vec2> points);
+// the pairs. The edges in this order, and the triangles that the first `steps` of them, or all, make.
+std::vector<std::pair<int, int>> greedy_edges(std::span<const Vec2> points);
+std::vector<IndexTriangle> greedy_triangulation(std::span<const Vec2> points, std::optional<int> steps = {});
 
 // The least sum of the edges' lengths, of all triangulations: flips lead from each to every other (Lawson 1972).
-// Throws std::invalid_argument for more than kMaxOptimalPoints points.
+// With `steps` what so many flips make of the greedy one, on a shortest way to the optimal one. Throws
+// std::invalid_argument for more than kMaxOptimalPoints points.
 inline constexpr size_t kMaxOptimalPoints = 10;
-std::vector<IndexTriangle> optimal_triangulation(std::span<const Vec2> points);
+std::vector<IndexTriangle> optimal_triangulation(std::span<const Vec2> points, std::optional<int> steps = {});
 
 // From the greedy one by flips of edges whose quadrilateral violates Delaunay's condition, until none is left or
 // `steps` are done.

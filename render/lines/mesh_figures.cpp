@@ -7,6 +7,7 @@
 
 #include "geometry/curves/analytic/circle.h"
 #include "geometry/curves/analytic/segment.h"
+#include "geometry/tessellation/planar_triangulations.h"
 
 namespace lekalo::render {
 
@@ -77,11 +78,25 @@ MeshFigure voronoi(const Mesh& mesh, const Fields& f) {
   return figure;
 }
 
+MeshFigure first_greedy_edges(const Mesh& mesh, const Fields& f) {
+  MeshFigure figure;
+  std::vector<Vec2> points;
+  for (const Vec3& p : mesh.points) points.emplace_back(p);
+  std::vector<std::pair<int, int>> edges = greedy_edges(points);
+  if (f.has("steps")) edges.resize(std::min(edges.size(), static_cast<size_t>(f.integer("steps"))));
+  for (const auto& [a, b] : edges) figure.lines.push_back(std::make_shared<Segment>(mesh.points[a], mesh.points[b]));
+  figure.points = mesh.points;
+  return figure;
+}
+
 }  // namespace
 
-bool is_mesh_figure(const std::string& helper) { return helper == "circumcircles" || helper == "voronoi"; }
+bool is_mesh_figure(const std::string& helper) {
+  return helper == "circumcircles" || helper == "voronoi" || helper == "greedy_edges";
+}
 
 MeshFigure mesh_figure(const Mesh& mesh, const Helper& helper) {
+  if (helper.type == "greedy_edges") return first_greedy_edges(mesh, helper.values);
   return helper.type == "voronoi" ? voronoi(mesh, helper.values) : circumcircles(mesh, helper.values);
 }
 

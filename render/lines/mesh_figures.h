@@ -16,7 +16,7 @@ struct MeshFigure {
   std::vector<geometry::Vec3> points;  // that get the helper's marker
 };
 
-// circumcircles, voronoi
+// circumcircles, voronoi, greedy_edges
 bool is_mesh_figure(const std::string& helper);
 
 // Triangles without a circumcircle have none.

@@ -10,6 +10,7 @@ from program import ProgramTest, ROOT, USAGE
 NET = "[[0, 0, 0], [0, 1, 1], [0, 2, 0], [0, 3, 1]], [[1, 0, 1], [1, 1, 3], [1, 2, 1], [1, 3, 0]], " \
       "[[2, 0, 0], [2, 1, 1], [2, 2, 2], [2, 3, 0]]"
 SURFACES = {
+    "cloud_surface": "points: [[0, 0], [1, 0, 0.3], [2, 0], [0, 1, 0.3], [1, 1, 0.6], [2, 1, 0.3], [0, 2], [1, 2, 0.3], [2, 2]], degree: 2",
     "plane": "size: [4, 4]",
     "sphere_surface": "radius: 1.5",
     "cylinder_surface": "radius: 1, height: 2",

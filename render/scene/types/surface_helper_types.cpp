@@ -174,12 +174,23 @@ TypeDeclaration voronoi() {
   return finish(type);
 }
 
+TypeDeclaration greedy_edges() {
+  TypeDeclaration type = helper("greedy_edges",
+                                "The edges of the greedy triangulation of a plane mesh's points: the shortest first, "
+                                "each that crosses none kept before (Golovanov 2016, 8.6).",
+                                "thin");
+  type.optional("steps", integer().at_least(0), "only so many; all without it")
+      .field("marker", marker(), "sign at the points", "none");
+  return finish(type);
+}
+
 }  // namespace
 
 std::vector<TypeDeclaration> surface_helper_types() {
-  return {curvature_lines(), asymptotic_lines(),     contour_lines(),     isophotes(),        reflections(),
-          umbilics_helper(), principal_directions(), principal_circles(), dupin_indicatrix(), tangent_plane(),
-          hedgehog(),        tool_axis_field(),      circumcircles(),     voronoi()};
+  return {curvature_lines(), asymptotic_lines(),     contour_lines(),     isophotes(),          reflections(),
+          umbilics_helper(), principal_directions(), principal_circles(), dupin_indicatrix(),   tangent_plane(),
+          hedgehog(),        tool_axis_field(),      circumcircles(),     voronoi() hedgehog(), voronoi(),
+          greedy_edges()};
 }
 
 }  // namespace lekalo::render

@@ -46,17 +46,16 @@ std::vector<IndexTriangle> triangles_of(const Fields& f, std::vector<Vec2> point
                      "method: delaunay or advancing_front");
   if (method == "advancing_front" && polygons.empty())
     throw FieldError("polygons", "an advancing front begins at polygons", "give the numbers of their points");
-  if (steps && (method == "greedy" || method == "optimal" || !polygons.empty()) && method != "advancing_front")
-    throw FieldError("steps", "here are no steps to show",
-                     "they are of flips, advancing_front, and delaunay of points");
-  if (method == "greedy") return greedy_triangulation(points);
+  if (steps && !polygons.empty() && method != "advancing_front")
+    throw FieldError("steps", "Delaunay's triangles of polygons have no steps to show", "method: advancing_front");
+  if (method == "greedy") return greedy_triangulation(points, steps);
   if (method == "flips") return triangulation_by_flips(points, steps);
   if (method == "advancing_front") return advancing_front(points, polygons, steps);
   if (method == "optimal") {
     if (points.size() > kMaxOptimalPoints)
       throw FieldError("points", fmt::format("the optimal triangulation of {} points takes too long", points.size()),
                        fmt::format("up to {}; method: greedy comes near", kMaxOptimalPoints));
-    return optimal_triangulation(points);
+    return optimal_triangulation(points, steps);
   }
   if (!polygons.empty()) return triangulate(points, polygons);
   if (steps && static_cast<size_t>(*steps) < points.size()) points.resize(static_cast<size_t>(*steps));
@@ -79,8 +78,9 @@ TypeDeclaration triangulation_type() {
                 "of delaunay and advancing_front: numbers of the points of closed polygons with the region on their "
                 "left, outer ones counterclockwise, holes clockwise; all other points are inner ones")
       .optional("steps", integer().at_least(0),
-                "only so many: flips, triangles of the front, or points taken up by delaunay")
-      .shows({"circumcircles", "voronoi"})
+                "only so many: flips, also from the greedy one on a shortest way to the optimal one; triangles of the "
+                "front; points taken up by delaunay; edges kept by greedy, which the helper greedy_edges shows")
+      .shows({"circumcircles", "voronoi", "greedy_edges"})
       .built_by([](const Fields& f) -> std::any {
         Mesh mesh;
         mesh.points = f.points("points");
