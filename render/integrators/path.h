@@ -10,9 +10,8 @@ namespace lekalo::render {
 
 // Of the field `spectral`.
 inline constexpr const char* kSpectralText =
-    "true: light of wavelengths in place of red, green and blue: measured metals, films, glass and the spectra of "
-    "lamps "
-    "count as they are, colours as smooth spectra of that look under white light D65; `dispersion` is part of it";
+    "true: light of wavelengths in place of red, green and blue: measured metals, films, glass (which parts colours) "
+    "and the spectra of lamps count as they are, colours as smooth spectra of that look under white light D65";
 
 IntegratorPtr make_path_integrator(const PathOptions& options = {});
 

@@ -83,18 +83,20 @@ Vec3 Daylight::radiance(const Vec3& direction) const {
                        0.0556434 * x - 0.2040259 * y + 1.0572252 * z));
 }
 
-Vec3 Daylight::sun() const {
+double Daylight::sun_power(double nanometres) const {
   const double degrees = sun_zenith_ * 180 / kPi;
-  if (degrees >= 93) return Vec3(0);
   // Way through the air in units of that from the zenith (Kasten 1966).
   const double mass = 1 / (std::max(0.0, std::cos(sun_zenith_)) + 0.15 * std::pow(93.885 - degrees, -1.253));
   const double haze = 0.04608 * turbidity_ - 0.04586;
-  const auto arriving = [&](double nanometres) {
-    const double micrometres = nanometres / 1000;
-    const double loss = 0.008735 * std::pow(micrometres, -4.08) + haze * std::pow(micrometres, -1.3) +
-                        0.35 * ozone(nanometres);  // 0.35 cm of it
-    return black_body(nanometres) * std::exp(-loss * mass);
-  };
+  const double micrometres = nanometres / 1000;
+  const double loss = 0.008735 * std::pow(micrometres, -4.08) + haze * std::pow(micrometres, -1.3) +
+                      0.35 * ozone(nanometres);  // 0.35 cm of it
+  return black_body(nanometres) * std::exp(-loss * mass);
+}
+
+Vec3 Daylight::sun() const {
+  if (sun_zenith_ * 180 / kPi >= 93) return Vec3(0);
+  const auto arriving = [this](double nanometres) { return sun_power(nanometres); };
   const Vec3 outside = observed(black_body);
   const double luminance = glm::dot(outside, Vec3(0.2126729, 0.7151522, 0.0721750));
   return glm::max(Vec3(0), kSolarConstant / luminance * observed(arriving));

@@ -21,6 +21,8 @@ class Daylight {
   // Of the sun on a surface that faces it, in klx: the solar constant of 128 klx of a black body of 5778 K through air
   // (Rayleigh's scattering, haze by Angstrom, ozone).
   Vec3 sun() const;
+  // Its power per nanometre in any unit; the sun stands less than 93 degrees from the zenith.
+  double sun_power(double nanometres) const;
 
  private:
   struct Perez {

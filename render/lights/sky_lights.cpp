@@ -102,7 +102,10 @@ TypeDeclaration sun_light_type() {
     light.direction = -to_sun(f);
     light.angular_diameter = kSunDiameter;
     light.sampling = area_sampling(f);
-    light.lamp.color = Daylight(-light.direction, f.number("turbidity")).sun() / (kPi * kUnit);
+    const Daylight day(-light.direction, f.number("turbidity"));
+    light.lamp.color = day.sun() / (kPi * kUnit);
+    light.lamp.spectrum =
+        std::make_shared<LampSpectrum>([day](double nanometres) { return day.sun_power(nanometres); });
     light.lamp.intensity = f.number("intensity");
     light.lamp.shadows = f.boolean("shadows");
     return make_light(light);

@@ -1,9 +1,14 @@
 // Metal with its own measured reflectance: Fresnel's formulas with the complex index n - i k at the light's
 // wavelengths.
+#include <algorithm>
+#include <vector>
+
 #include "render/lobes/fresnel.h"
 #include "render/lobes/scattering.h"
 #include "render/materials/materials.h"
 #include "render/materials/optical_constants.h"
+#include "render/spectra/hero_wavelengths.h"
+#include "render/spectra/observer.h"
 
 namespace lekalo::render {
 
@@ -24,12 +29,20 @@ class ConductorMaterial final : public Material {
           wavelengths.nanometres.fill(static_cast<float>(nanometres));
           const ComplexIndex index = metal_index(metal, wavelengths);
           return std::complex<double>(index.n[0], -index.k[0]);
-        })) {}
+        })) {
+    if (conductor.metal.empty()) return;
+    for (int i = 0; i < kSpectrumEntries; ++i) {
+      Wavelengths one;
+      one.nanometres.fill(static_cast<float>(entry_nanometres(i)));
+      const ComplexIndex index = metal_index(conductor.metal, one);
+      means_.push_back(MetalReflectance{index.n, index.k}.mean()[0]);
+    }
+  }
 
   Scattering scattering(const SurfacePoint& point, const Wavelengths& wavelengths) const override {
     MetalLobe lobe;
     lobe.reflectance = reflectance(point, wavelengths);
-    lobe.mean = lobe.reflectance.measured() && !film_ && is_usual(wavelengths) ? rgb_mean_ : lobe.reflectance.mean();
+    lobe.mean = mean(lobe.reflectance, wavelengths);
     lobe.anisotropy = conductor_.anisotropy;
     lobe.rotation = conductor_.rotation;
     const TabledRoughness::Value rough = roughness_.at(point);
@@ -54,6 +67,19 @@ class ConductorMaterial final : public Material {
 
  private:
   static bool is_usual(const Wavelengths& wavelengths) { return wavelengths.nanometres == Wavelengths{}.nanometres; }
+  Spectrum mean(const MetalReflectance& reflectance, const Wavelengths& wavelengths) const {
+    if (!reflectance.measured() || film_) return reflectance.mean();
+    if (is_usual(wavelengths)) return rgb_mean_;
+    if (!is_spectral(wavelengths)) return reflectance.mean();
+    Spectrum means;
+    for (int i = 0; i < 4; ++i) {
+      const double place = (wavelengths.nanometres[static_cast<size_t>(i)] - kFirstNanometre) / kNanometreStep;
+      const auto below = static_cast<size_t>(std::clamp(place, 0.0, kSpectrumEntries - 2.0));
+      const auto share = static_cast<float>(place - static_cast<double>(below));
+      means.set(i, (1 - share) * means_[below] + share * means_[below + 1]);
+    }
+    return means;
+  }
   MetalReflectance reflectance(const SurfacePoint& point, const Wavelengths& wavelengths) const {
     MetalReflectance f;
     f.wavelengths = wavelengths;
@@ -73,8 +99,9 @@ class ConductorMaterial final : public Material {
   }
 
   Conductor conductor_;
-  ComplexIndex rgb_index_;  // looked up once for the usual wavelengths
-  Spectrum rgb_mean_;       // of the measured reflectance there
+  ComplexIndex rgb_index_;    // looked up once for the usual wavelengths
+  Spectrum rgb_mean_;         // of the measured reflectance there
+  std::vector<float> means_;  // and at the entries of the tables of spectra
   TabledRoughness roughness_;
   FilmTablePtr film_;
 };
