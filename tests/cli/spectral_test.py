@@ -59,6 +59,16 @@ class Spectral(ProgramTest):
                     for a, b, c in zip(found, white, colors):
                         self.assertAlmostEqual(a / b, c, delta=0.03)
 
+    def test_spectra_inside_of_rec709_are_their_colours(self):
+        """A glowing ball, the sun, and glass that parts colours: under grey surroundings as by the colour alone."""
+        for parts in ({"material": "{ type: emission, temperature: 3200, strength: 2 }"},
+                      {"material": "{ type: emission, spectrum: F7, strength: 2 }"},
+                      {"light": "sun_light", "lamp": "sun: [1, -1, 1]"},
+                      {"material": "{ type: dielectric, glass: N-SF11 }"}):
+            with self.subTest(**parts):
+                for a, b in zip(self.means(**parts), self.means(spectral="false", **parts)):
+                    self.assertAlmostEqual(a, b, delta=0.02 * b)
+
     def test_what_is_wrong_is_said(self):
         for lamp, words in ((f"{BALL}, spectrum: D75", "D65"), (f"{BALL}, spectrum: A, temperature: 3000", "leave one out"),
                             (f"{BALL}, spectrum: A, color: [1, 0.5, 0.5]", "says of what colour"),
