@@ -91,10 +91,20 @@ class LocalBodies(ProgramTest):
         self.refused("type: deleted_faces, of: block, faces: []", "expected at least 1 value, found 0")
 
 
+    def test_refilleted_bodies_are_as_filleted_ones(self):
+        leant = ("  leant: { type: union, of: [block, { type: cylinder_body, radius: 0.6, height: 3, frame: { origin: [2, 2, 1.4], z: [0.3, 0, 1] } }] }\n")
+        foot = "{ edges: { between: [side, z_max] }, radius: %s }"
+        for of, fillets in (("block", "{ edges: { of_face: z_max }, radius: %s }"), ("block", "{ radius: %s }"), ("leant", foot)):
+            made = "{ type: fillet_body, of: " + of + ", fillets: " + fillets + " }"
+            more = BLOCK + leant + f"  rounded: {made % 0.3}\n"
+            self.assert_near(self.volume("type: refilleted_body, of: rounded, radius: 0.2", more),
+                             self.volume((made % 0.2)[2:-2], BLOCK + leant), 1e-10)
+            self.assert_near(self.volume("type: deleted_faces, of: rounded, faces: fillets, chain: true", more),
+                             self.volume(f"like: {of}", BLOCK + leant), 1e-10)
+
     def test_what_does_not_follow(self):
         more = BLOCK + "  rounded: { type: fillet_body, of: block, fillets: { edges: { of_face: z_max }, radius: 0.3 } }\n"
-        for change in "type: moved_faces, of: rounded, faces: block.x_max, distance: 0.1", "type: refilleted_body, of: rounded, radius: 0.2":
-            self.refused(change, "meets others in a corner, which does not follow", more=more)
+        self.refused("type: moved_faces, of: rounded, faces: block.x_max, distance: 0.1", "meets others in a corner, which does not follow", more=more)
         self.refused("type: drafted_faces, of: { type: cone_body, radius: 2, height: 3 }, faces: side, angle: 5", "runs to a point")
 
 

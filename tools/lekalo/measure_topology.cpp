@@ -5,7 +5,9 @@
 #include <unordered_set>
 
 #include "command.h"
+#include "geometry/bodies/local/fillet_chains.h"
 #include "geometry/bodies/topology/characteristics.h"
+#include "geometry/bodies/topology/selection.h"
 #include "geometry/body.h"
 #include "geometry/queries/differential/roundness.h"
 #include "geometry/queries/quadrics/canonical_surface.h"
@@ -148,6 +150,26 @@ ordered_json non_manifold_of(const Body& body) {
   return out;
 }
 
+// Fillets by their shape, chain by chain.
+ordered_json fillets_of(const Body& body) {
+  ordered_json out = ordered_json::array();
+  const auto names = [&](const std::vector<int>& faces) {
+    ordered_json list = ordered_json::array();
+    for (const int face : faces) list.push_back(geometry::name_of(body, geometry::Element::face, face));
+    return list;
+  };
+  for (const geometry::FilletChain& chain : geometry::fillet_chains(body)) {
+    ordered_json between = ordered_json::array();
+    for (const auto& pair : chain.between) between.push_back(names({pair[0], pair[1]}));
+    out.push_back({{"radius", chain.radius},
+                   {"convex", chain.convex},
+                   {"faces", names(chain.faces)},
+                   {"corners", names(chain.corners)},
+                   {"between", std::move(between)}});
+  }
+  return out;
+}
+
 ordered_json body_topology(const Body& body) {
   ordered_json out;
   const std::vector<geometry::Violation> violations = body.violations();
@@ -158,6 +180,7 @@ ordered_json body_topology(const Body& body) {
   out["loops"] = body.loops.size();
   out["characteristics"] = characteristics_of(body);
   out["non_manifold"] = non_manifold_of(body);
+  out["fillets"] = fillets_of(body);
   out["faces"] = faces_of(body);
   out["edges"] = edges_of(body);
   ordered_json vertices = ordered_json::array();
@@ -199,6 +222,10 @@ std::string numbers_text(const ordered_json& numbers) {
   std::string text;
   for (const auto& number : numbers) text += fmt::format("{}{}", text.empty() ? "" : " ", number.get<int>());
   return text;
+}
+
+std::string names_text(const ordered_json& names) {
+  return fmt::format("{}", fmt::join(names.get<std::vector<std::string>>(), ", "));
 }
 
 char sign(const ordered_json& forward) { return forward.get<bool>() ? '+' : '-'; }
@@ -273,6 +300,10 @@ void print_topology(const ordered_json& found) {
   for (const auto& part : found["characteristics"]) print_characteristics(part);
   for (const char* kind : {"edges", "vertices"})
     for (const auto& place : found["non_manifold"][kind]) fmt::print("not manifold at {}\n", place.get<std::string>());
+  for (const auto& chain : found["fillets"])
+    fmt::print("{} fillet of radius {:.6g}: {}{}\n", chain["convex"].get<bool>() ? "convex" : "concave",
+               chain["radius"].get<double>(), names_text(chain["faces"]),
+               chain["corners"].empty() ? "" : ", corners " + names_text(chain["corners"]));
   fmt::print("{}, {}\n{}\n", counted(found["shells"], "shell", "shells"), counted(found["loops"], "loop", "loops"),
              counted(found["faces"].size(), "face", "faces"));
   for (const auto& face : found["faces"])

@@ -1,8 +1,11 @@
 // Faces taken away (Golovanov 2016, 6.12): the faces around them are continued until they close the wound, and holes in
 // them are filled; or the faces taken are closed by the same continued surfaces to a body of their own.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "geometry/bodies/local/face_replacement.h"
+#include "geometry/bodies/local/fillet_chains.h"
 #include "geometry/queries/measures/mass_properties.h"
 
 namespace lekalo::geometry {
@@ -19,8 +22,31 @@ void check_shells(const FaceReplacement& made) {
   check_replacement(whole, "faces", kHint);
 }
 
+// Fillets with all that follows them; the faces that are none.
+std::vector<FilletChain> chains_among(const Body& body, std::vector<int>& faces) {
+  std::vector<FilletChain> chosen;
+  for (FilletChain& chain : fillet_chains(body)) {
+    const size_t before = faces.size();
+    std::erase_if(faces, [&](int k) {
+      return std::find(chain.faces.begin(), chain.faces.end(), k) != chain.faces.end() ||
+             std::find(chain.corners.begin(), chain.corners.end(), k) != chain.corners.end();
+    });
+    if (faces.size() < before) chosen.push_back(std::move(chain));
+  }
+  return chosen;
+}
+
+Body without_chains(const Body& body, std::vector<int> faces) {
+  const std::vector<FilletChain> chains = chains_among(body, faces);
+  if (!faces.empty())
+    throw FieldError("faces", fmt::format("the face {} is no fillet", name_of_face(body, faces.front())),
+                     "leave out 'chain', or the face");
+  return without_fillets(body, chains, "faces").body;
+}
+
 Body deleted(const Fields& f) {
   const Body& body = *f.body("of");
+  if (f.boolean("chain")) return without_chains(body, faces_named(body, f, "faces"));
   std::vector<SurfacePtr> surfaces;
   for (const Face& face : body.faces) surfaces.push_back(face.surface);
   for (const int k : faces_named(body, f, "faces")) surfaces[k] = nullptr;
@@ -67,6 +93,9 @@ TypeDeclaration deleted_faces_type() {
           "along: [0, 0, 1] }, faces: side.4")
       .field("of", reference({Category::body}), "the body; closed")
       .field("faces", texts().count(1), "names or numbers of the faces, as 'lekalo measure --topology' gives them")
+      .field("chain", boolean(),
+             "the faces are fillets, and all go that follow them smoothly with their radius, corners among them",
+             "false")
       .built_by([](const Fields& f) -> BodyPtr { return std::make_shared<Body>(deleted(f)); });
 }
 

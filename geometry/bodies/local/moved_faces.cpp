@@ -182,42 +182,7 @@ Body leant(const Fields& f) {
   return with_faces_on(body, surfaces, "angle", "a smaller angle");
 }
 
-Body refilleted(const Fields& f) {
-  const Body& body = *f.body("of");
-  std::vector<PlaneFillet> fillets;
-  if (f.has("faces")) {
-    for (const int k : faces_named(body, f, "faces")) {
-      const auto fillet = plane_fillet(body, k);
-      if (!fillet)
-        throw FieldError("faces", fmt::format("the face {} is no fillet between two planes", name_of_face(body, k)),
-                         "a cylinder that is smooth with a plane on both sides");
-      fillets.push_back(*fillet);
-    }
-  } else {
-    fillets = plane_fillets(body);
-    if (fillets.empty()) throw FieldError("of", "the body has no fillets between planes");
-  }
-  std::vector<SurfacePtr> surfaces = surfaces_of(body);
-  for (const PlaneFillet& fillet : fillets) surfaces[fillet.face] = with_radius(body, fillet, f.number("radius"));
-  return with_faces_on(body, surfaces, "radius", "a smaller radius");
-}
-
 }  // namespace
-
-TypeDeclaration refilleted_body_type() {
-  return declare(
-             Category::body, "refilleted_body",
-             "A body whose fillets between plane faces get another radius: cylinders that are smooth with a plane "
-             "on both sides are recognised as fillets, and change where they meet no other in a corner. (deleted_faces "
-             "removes them.)")
-      .example(
-          "of: { type: extrusion_body, of: { type: rectangle, size: [3, 2], corner_radius: 0.5 }, along: [0, 0, "
-          "1] }, radius: 0.2")
-      .field("of", reference({Category::body}), "the body; closed")
-      .optional("faces", texts().count(1), "names or numbers of the fillets; all that there are where left out")
-      .field("radius", length().positive(), "their radius")
-      .built_by([](const Fields& f) -> BodyPtr { return std::make_shared<Body>(refilleted(f)); });
-}
 
 TypeDeclaration moved_faces_type() {
   return declare(Category::body, "moved_faces",
