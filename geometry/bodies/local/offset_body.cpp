@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/bodies/local/cleared_offset.h"
 #include "geometry/bodies/local/plane_polygons.h"
 #include "geometry/bodies/local/plane_seams.h"
 #include "geometry/bodies/local/round_offset.h"
@@ -118,6 +119,11 @@ Body offset_body(const Fields& f) {
     check_replacement(made, "joints", "joints: extended");
     return std::move(made.body);
   }
+  try {
+    return plain_offset(body, distances, 1, "distance", "").body;
+  } catch (const FieldError&) {
+    if (auto made = cleared_offset(body, f.number("distance"))) return *std::move(made);
+  }
   return offset_of_body(body, distances, "distance", "a smaller distance").body;
 }
 
@@ -126,7 +132,8 @@ Body offset_body(const Fields& f) {
 TypeDeclaration offset_body_type() {
   return declare(Category::body, "offset_body",
                  "Body whose faces lie at a distance from those of another, continued until they meet. Faces and edges "
-                 "keep their names; a vertex where more than three faces meet becomes several, with edges joint.k.")
+                 "keep their names; a vertex where more than three faces meet becomes several, with edges joint.k. "
+                 "Faces that are rounder than the distance vanish.")
       .example("of: { type: pyramid, points: [[-2, -1], [2, -1], [2, 1], [-2, 1]], height: 3 }, distance: 0.3")
       .field("of", reference({Category::body}), "the body; closed")
       .field("distance", length(), "along the outward normals; negative: to the inside")
