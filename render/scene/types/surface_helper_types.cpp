@@ -187,10 +187,9 @@ TypeDeclaration greedy_edges() {
 }  // namespace
 
 std::vector<TypeDeclaration> surface_helper_types() {
-  return {curvature_lines(), asymptotic_lines(),     contour_lines(),     isophotes(),          reflections(),
-          umbilics_helper(), principal_directions(), principal_circles(), dupin_indicatrix(),   tangent_plane(),
-          hedgehog(),        tool_axis_field(),      circumcircles(),     voronoi() hedgehog(), voronoi(),
-          greedy_edges()};
+  return {curvature_lines(), asymptotic_lines(),     contour_lines(),     isophotes(),        reflections(),
+          umbilics_helper(), principal_directions(), principal_circles(), dupin_indicatrix(), tangent_plane(),
+          hedgehog(),        tool_axis_field(),      circumcircles(),     voronoi(),          greedy_edges()};
 }
 
 }  // namespace lekalo::render
