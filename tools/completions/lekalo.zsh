@@ -183,11 +183,8 @@ case $command in
       '--topology[faces, edges and vertices with their names instead]' \
       '--regularity[whether the curve or surface is regular\: bounds of speed and curvature]' \
       '--cubature[area and volume by rules of so many points on triangular cells, without bounds of the error\: 1, 3, 4, 6 or 7, exact for degrees 1 to 5]:POINTS:(1 3 4 6 7)' \
-      '--turn[of --cubature, how far the normal turns inside of a cell at most \[20\]]:DEGREES: ' \
       '--cells[cut into so many cells\: bounds of their diameters and of the surface'\''s]:NU,NV: ' \
-      '--line[of --cells, a point and a direction\: whether the diameters prove that the line misses the surface]:X,Y,Z,DX,DY,DZ: ' \
       '--to[distance from a point, with all its feet; from a curve, surface or body, with all minima]:NAME|X,Y,Z: ' \
-      '--nearest[of --to only what is nearest, which takes less time]' \
       '*--intersect[where the curve, surface or body meets another\: crossings, contacts, common parts, curves; given twice, the common points of three surfaces or bodies]:NAME: ' \
       '--self-intersection[where the curve or surface meets itself\: crossings, contacts, cusps, parts run twice, curves]' \
       '--section[where a plane cuts the surface or body\: a point of the plane and its normal]:X,Y,Z,NX,NY,NZ: ' \
@@ -202,13 +199,16 @@ case $command in
       '--frechet[the same for points that run along both curves at best, from beginning to end]:NAME: ' \
       '--against[table of points with columns t,x,y,z or u,v,x,y,z; or another curve or surface of the scene, whose domain is mapped linearly]:FILE|NAME:_files' \
       '--rim[whether the closed plane curve is the rim of a sheet that may overlap itself]' \
-      '--chord[of --rim, two parameters\: whether the straight line between the points is one line on the sheet]:T,T: ' \
-      '--secant[the same of a curve between these points, as that of the section by a cylinder]:NAME: ' \
       '--stretch[by how much the surface stretches when it is laid on another one of the same parameters, as a development on its surface]:NAME: ' \
       '--blank[the smallest box that stands along this direction and holds the curve, surface or body, and by how much it is turned about it\: the blank of a workpiece]:DX,DY,DZ: ' \
+      '--turn[of --cubature, how far the normal turns inside of a cell at most \[20\]]:DEGREES: ' \
+      '--line[of --cells, a point and a direction\: whether the diameters prove that the line misses the surface]:X,Y,Z,DX,DY,DZ: ' \
+      '--nearest[of --to only what is nearest, which takes less time]' \
+      '--chord[of --rim, two parameters\: whether the straight line between the points is one line on the sheet]:T,T: ' \
+      '--secant[the same of a curve between these points, as that of the section by a cylinder]:NAME: ' \
       '--tolerance[largest difference that passes; of --intersect and --self-intersection the part of the size below which points are one \[1e-09\]; of --continuity the relative jump that passes \[1e-06\]]:X: ' \
-      '--samples[of --against and --stretch, places in each direction \[65\]; of curves that surfaces make, points along each branch]:INT: ' \
-      '--order[compare derivatives up to this order \[2\]]:INT: ' \
+      '--samples[of --against and --stretch, places in each direction \[65\]; of curves that surfaces make, points along each branch]:N: ' \
+      '--order[compare derivatives up to this order \[2\]]:N: ' \
       '--json[print JSON]' ;;
   trace)
     _arguments \
