@@ -12,6 +12,7 @@
 #include "geometry/bodies/trims/trim.h"
 #include "geometry/queries/contours/contour_curve.h"
 #include "geometry/queries/contours/surface_intersection.h"
+#include "geometry/queries/differential/plane_lines.h"
 #include "geometry/queries/intersections/curve_intersections.h"
 #include "geometry/surfaces/analytic/plane.h"
 
@@ -36,15 +37,14 @@ class MeasuredContour {
     for (const CurvePiece& piece : contour.curve->pieces())
       for (int k = 1; k <= parts; ++k)
         ends_.push_back(k == parts ? piece.domain.hi : piece.domain.lo + piece.domain.width() * k / parts);
-    double length = 0;
     for (const double t : ends_) {
       corners_.push_back(contour.curve->point(t));
-      if (corners_.size() > 1) length += glm::length(corners_.back() - corners_[corners_.size() - 2]);
+      if (corners_.size() > 1) length_ += glm::length(corners_.back() - corners_[corners_.size() - 2]);
     }
-    speed_ = length / contour.curve->domain().width();
   }
+  double length() const { return length_; }
   // Length by parameter, in the mean.
-  double speed() const { return speed_; }
+  double speed() const { return length_ / contour_.curve->domain().width(); }
 
   // The parameter of a point on it; nothing where it is farther than `near` from it.
   std::optional<double> place_of(const Vec3& p, double near) const {
@@ -62,7 +62,7 @@ class MeasuredContour {
     CurveJet at = contour_.curve->evaluate(t, 1);
     for (int step = 0; step < kSteps; ++step) {
       const double off = glm::dot(p - at.d[0], at.d[1]) / glm::dot(at.d[1], at.d[1]);
-      if (!(std::abs(off) * speed_ > 1e-3 * near)) break;
+      if (!(std::abs(off) * speed() > 1e-3 * near)) break;
       t += off;
       if (contour_.closed)
         t -= domain.width() * std::floor((t - domain.lo) / domain.width());
@@ -78,7 +78,7 @@ class MeasuredContour {
   const Contour& contour_;
   std::vector<double> ends_;
   std::vector<Vec3> corners_;
-  double speed_ = 1;
+  double length_ = 0;
 };
 
 struct FaceOf {
@@ -299,17 +299,27 @@ BodyContours plane_section(const Body& body, const Vec3& origin, const Vec3& nor
   return joining.joined();
 }
 
+namespace {
+
+bool is_plane(const Surface& surface) {
+  return dynamic_cast<const Plane*>(&surface) || (surface.bounded() && plane_lines(surface).surface);
+}
+
+}  // namespace
+
 BodyContours silhouette(const Body& body, const ViewOf& view) {
   const double size = size_of(bounds(body));
   Joining joining(size);
   for (int k = 0; k < count_of(body); ++k) {
     const FaceOf face(body, k);
-    // A plane has none, or is one where it is seen edge-on: its edges show that.
-    if (dynamic_cast<const Plane*>(face->surface.get())) continue;
+    // What is plane has none, or is one where it is seen edge-on: its edges show that.
+    if (is_plane(*face->surface)) continue;
     const Contours found = silhouette(face->surface, view);
     keep_points(joining, found, face, nullptr);
     for (const Contour& contour : found.branches) {
       const MeasuredContour measured(contour);
+      // A side of the parameters that is one point: the normal vanishes all along it.
+      if (measured.length() <= kSameJoint * size) continue;
       std::vector<Vec3> cuts;
       for (const int number : face.edges()) {
         const Curve& edge = *body.edges[number].curve;
