@@ -23,7 +23,14 @@ constexpr double kSteepest = 0.7;
 // Edges at one point stand no nearer to each other (cosine, of 8 degrees).
 constexpr double kNearestEdges = 0.99;
 
+// So many nearest points lie beside a point in the surface, not in another part of it.
+constexpr size_t kSurelyBeside = 3;
+
 using Edge = std::pair<int, int>;
+
+std::string place_of(std::span<const Vec3> points, int i) {
+  return fmt::format("point {} at ({:.6g}, {:.6g}, {:.6g})", i, points[i].x, points[i].y, points[i].z);
+}
 
 struct TangentPlane {
   Vec3 x, y;
@@ -53,6 +60,7 @@ class CloudEdges {
   CloudEdges(std::span<const Vec3> points, const CloudOptions& options)
       : points_(points), nearest_(nearest_neighbours(points, options.neighbours)), beside_(points.size()) {
     normals_ = estimated_normals(points, nearest_);
+    check_sides();
     for (const auto& [length, edge] : candidates(options.longest))
       if (allows(edge)) {
         beside_[edge.first].push_back(edge.second);
@@ -66,17 +74,33 @@ class CloudEdges {
   const std::vector<std::vector<int>>& beside() const { return beside_; }
 
  private:
+  // Normals that were turned alike from neighbour to neighbour agree wherever the surface has two sides.
+  void check_sides() const {
+    for (int a = 0; a < static_cast<int>(points_.size()); ++a)
+      for (size_t k = 0; k < std::min(nearest_[a].size(), kSurelyBeside); ++k) {
+        const int b = nearest_[a][k];
+        if (glm::dot(normals_[a], normals_[b]) < -kSteepest && is_along(a, b))
+          throw std::invalid_argument(
+              fmt::format("the normals of {} and of {} beside it are opposite: the surface has one side alone, or two "
+                          "parts of it are nearer to each other than points of one",
+                          place_of(points_, a), place_of(points_, b)));
+      }
+  }
+
+  bool is_along(int a, int b) const {
+    const Vec3 d = points_[b] - points_[a];
+    const double steepest = kSteepest * glm::length(d);
+    return std::abs(glm::dot(d, normals_[a])) <= steepest && std::abs(glm::dot(d, normals_[b])) <= steepest;
+  }
+
   bool is_near(int a, int b) const { return std::find(nearest_[a].begin(), nearest_[a].end(), b) != nearest_[a].end(); }
 
   std::vector<std::pair<double, Edge>> candidates(double longest) const {
     std::vector<std::pair<double, Edge>> result;
     for (int a = 0; a < static_cast<int>(points_.size()); ++a)
       for (const int b : nearest_[a]) {
-        const Vec3 d = points_[b] - points_[a];
-        const double length = glm::length(d), steepest = kSteepest * length;
-        if (a > b || !is_near(b, a) || length > longest) continue;
-        if (std::abs(glm::dot(d, normals_[a])) <= steepest && std::abs(glm::dot(d, normals_[b])) <= steepest)
-          result.push_back({length, {a, b}});
+        const double length = glm::length(points_[b] - points_[a]);
+        if (a < b && is_near(b, a) && length <= longest && is_along(a, b)) result.push_back({length, {a, b}});
       }
     std::sort(result.begin(), result.end());
     return result;
@@ -144,10 +168,6 @@ std::vector<std::vector<int>> faces_of(const std::vector<std::vector<int>>& besi
       if (!face.empty()) faces.push_back(std::move(face));
     }
   return faces;
-}
-
-std::string place_of(std::span<const Vec3> points, int i) {
-  return fmt::format("point {} at ({:.6g}, {:.6g}, {:.6g})", i, points[i].x, points[i].y, points[i].z);
 }
 
 // The triangles of a face that is nearly plane; nothing of one that runs round a border.

@@ -121,6 +121,14 @@ TEST(CloudTriangulation, SaysWhatIsNoSurface) {
   const std::vector<Vec3> line{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}};
   EXPECT_THROW(triangulation_of_cloud(line), std::invalid_argument);
   EXPECT_THROW(triangulation_of_cloud(std::vector<Vec3>(3)), std::invalid_argument);
+  // Moebius' strip.
+  std::vector<Vec3> strip;
+  for (int i = 0; i < 40; ++i)
+    for (int j = -2; j <= 2; ++j) {
+      const double t = 2 * kPi * i / 40, r = 2 + 0.3 * j * std::cos(t / 2);
+      strip.emplace_back(r * std::cos(t), r * std::sin(t), 0.3 * j * std::sin(t / 2));
+    }
+  EXPECT_THROW(triangulation_of_cloud(strip), std::invalid_argument);
 }
 
 }  // namespace
