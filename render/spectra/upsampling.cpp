@@ -63,12 +63,24 @@ Fit fit_at(const Coefficients& c) {
   return fit;
 }
 
+// The polynomial that has the colour's lanes at the wavelengths that stand for them (Wavelengths).
+Coefficients first_guess(const Eigen::Vector3d& color) {
+  Eigen::Matrix3d powers;
+  Eigen::Vector3d u;
+  for (int i = 0; i < 3; ++i) {
+    const double x = reduced(Wavelengths{}.nanometres[static_cast<size_t>(i)]);
+    const double v = 2 * std::clamp(color[i], 0.02, 0.98) - 1;
+    powers.row(i) << 1, x, x * x;
+    u[i] = v / std::sqrt(1 - v * v);
+  }
+  return powers.inverse() * u;
+}
+
 // Levenberg and Marquardt's damping: steps that lead away from the colour are made shorter.
 Coefficients fitted(const Eigen::Vector3d& color) {
   constexpr int kMostSteps = 80;
   constexpr double kNear = 1e-12;  // square of the error of the colour
-  const double grey = std::clamp(color.mean(), 0.02, 0.98), v = 2 * grey - 1;
-  Coefficients c(v / std::sqrt(1 - v * v), 0, 0);
+  Coefficients c = first_guess(color);
   Fit fit = fit_at(c);
   double error = (fit.color - color).squaredNorm(), damping = 1e-3;
   for (int step = 0; step < kMostSteps && error > kNear; ++step) {
