@@ -92,11 +92,14 @@ std::optional<Body> healed_without(const Body& body, const std::vector<char>& gr
   }
 }
 
-// Fillets first, by their chains; else other faces with their islands. Nothing where none vanishes.
-std::optional<Body> without_vanishing(const Body& body, double distance) {
-  std::vector<char> group(body.faces.size(), 0);
-  for (size_t f = 0; f < group.size(); ++f) group[f] = vanishes(body, static_cast<int>(f), distance);
-  if (std::none_of(group.begin(), group.end(), [](char one) { return one != 0; })) return std::nullopt;
+std::vector<char> vanishing_faces(const Body& body, double distance) {
+  std::vector<char> faces(body.faces.size(), 0);
+  for (size_t f = 0; f < faces.size(); ++f) faces[f] = vanishes(body, static_cast<int>(f), distance);
+  return faces;
+}
+
+// Fillets first, by their chains; else other faces with their islands.
+std::optional<Body> without_vanishing(const Body& body, std::vector<char> group) {
   std::vector<FilletChain> chains = fillet_chains(body);
   std::erase_if(chains, [&](const FilletChain& chain) {
     return std::none_of(chain.faces.begin(), chain.faces.end(), [&](int f) { return group[f] != 0; });
@@ -135,9 +138,12 @@ std::optional<Body> put_together(BooleanOperation operation, const Body& a, cons
 }
 
 std::optional<Body> cleared(const Body& body, double distance, int depth) {
-  if (auto made = plain_offset(body, distance)) return made;
   if (depth == 0) return std::nullopt;
-  if (const auto rest = without_vanishing(body, distance)) return cleared(*rest, distance, depth - 1);
+  if (has_vanishing_face(body, distance)) {
+    const auto rest = without_vanishing(body, vanishing_faces(body, distance));
+    return rest ? cleared(*rest, distance, depth - 1) : std::nullopt;
+  }
+  if (auto made = plain_offset(body, distance)) return made;
   const auto pair = crossing_pair(body, distance);
   if (!pair) return std::nullopt;
   std::array<std::optional<Body>, 2> parts;
@@ -169,6 +175,11 @@ bool keeps_distance(const Body& body, const Body& made, double distance) {
 }
 
 }  // namespace
+
+bool has_vanishing_face(const Body& body, double distance) {
+  const std::vector<char> faces = vanishing_faces(body, distance);
+  return std::find(faces.begin(), faces.end(), 1) != faces.end();
+}
 
 std::optional<Body> cleared_offset(const Body& body, double distance) {
   if (!body.is_closed()) return std::nullopt;

@@ -119,11 +119,15 @@ Body offset_body(const Fields& f) {
     check_replacement(made, "joints", "joints: extended");
     return std::move(made.body);
   }
-  try {
-    return plain_offset(body, distances, 1, "distance", "").body;
-  } catch (const FieldError&) {
-    if (auto made = cleared_offset(body, f.number("distance"))) return *std::move(made);
+  const double distance = f.number("distance");
+  if (!has_vanishing_face(body, distance)) {
+    try {
+      return plain_offset(body, distances, 1, "distance", "").body;
+    } catch (const FieldError&) {
+      // Perhaps it can be put together.
+    }
   }
+  if (auto made = cleared_offset(body, distance)) return *std::move(made);
   return offset_of_body(body, distances, "distance", "a smaller distance").body;
 }
 
