@@ -270,7 +270,9 @@ GivenFunctions read_functions(const Fields& f) {
     throw FieldError(f.has("at") ? "lines" : "at", "a mesh has vertices and lines", "give 'at' and 'lines'");
   const TMesh mesh = t_mesh(f.points("at"), f.indices("lines"), periods_of(f));
   GivenFunctions given{inferred_knots(mesh, degree), mesh.own_edges(), {}, mesh.periods};
-  const Rectangle valid = valid_domain(mesh, given.functions);
+  // One that is given may lie where a mesh has none by itself; it is a period where the mesh is closed.
+  const bool closed = mesh.periods.u > 0 || mesh.periods.v > 0;
+  const Rectangle valid = f.has("domain") && !closed ? f.rectangle("domain") : valid_domain(mesh, given.functions);
   given.domain = f.has("domain") ? f.rectangle("domain") : valid;
   check_domain(given, valid.u, valid.v);
   return given;
