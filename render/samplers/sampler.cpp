@@ -1,5 +1,8 @@
 #include "render/samplers/sampler.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 namespace lekalo::render {
@@ -89,6 +92,41 @@ uint32_t second_sobol(uint32_t x) {
   return x ^ (x << 16);
 }
 
+// The pixels that share a sequence are a square of 2^8 a side; with 2^16 samples each the sequence's 32 bits are full.
+constexpr int kSquareBits = 8;
+constexpr uint32_t kMostInPicture = 1u << (32 - 2 * kSquareBits);
+
+// Bits of the lower half moved apart: to the even places.
+uint32_t spread(uint32_t x) {
+  x = (x | x << 8) & 0x00ff00ffu;
+  x = (x | x << 4) & 0x0f0f0f0fu;
+  x = (x | x << 2) & 0x33333333u;
+  return (x | x << 1) & 0x55555555u;
+}
+
+using Order = std::array<uint8_t, 4>;
+constexpr std::array<Order, 24> kOrders = [] {
+  std::array<Order, 24> orders{};
+  Order order{0, 1, 2, 3};
+  for (Order& one : orders) {
+    one = order;
+    std::next_permutation(order.begin(), order.end());
+  }
+  return orders;
+}();
+
+// The Morton code with the quarters of each square in a random order, which depends on the square.
+uint32_t shuffled_morton(uint32_t code, uint64_t key) {
+  uint32_t shuffled = 0, square = 1;
+  for (int shift = 2 * (kSquareBits - 1); shift >= 0; shift -= 2) {
+    const uint32_t quarter = code >> shift & 3;
+    const Order& order = kOrders[(mix(key + square * kGolden) >> 32) * kOrders.size() >> 32];
+    shuffled = shuffled << 2 | order[quarter];
+    square = square << 2 | quarter;
+  }
+  return shuffled;
+}
+
 class StratifiedSampler final : public Sampler {
  public:
   StratifiedSampler(int samples, uint32_t seed) : samples_(samples), seed_(seed) {}
@@ -101,6 +139,8 @@ class StratifiedSampler final : public Sampler {
   }
 
   SampleStream stream(uint32_t x, uint32_t y, int sample) const override {
+    if (sample < samples_ && static_cast<uint32_t>(samples_) <= kMostInPicture)
+      return SampleStream::in_picture(x, y, sample, samples_, seed_);
     return SampleStream(x, y, sample, samples_, seed_);
   }
 
@@ -129,20 +169,29 @@ class ProgressiveSampler final : public Sampler {
 }  // namespace
 
 SampleStream::SampleStream(uint32_t x, uint32_t y, uint32_t sample, uint32_t count, uint32_t seed)
-    : key_(mix(pixel_key(x, y, seed) + kGolden)), sample_(sample), count_(count) {}
+    : key_(mix(pixel_key(x, y, seed) + kGolden)), sequence_(key_), sample_(sample), count_(count) {}
 
-uint64_t SampleStream::next_key() { return mix(key_ + ++dimension_ * kGolden); }
+SampleStream SampleStream::in_picture(uint32_t x, uint32_t y, uint32_t sample, uint32_t count, uint32_t seed) {
+  constexpr uint32_t kWithin = (1u << kSquareBits) - 1;
+  SampleStream stream(x, y, sample, count, seed);
+  stream.sequence_ = mix(pixel_key(x >> kSquareBits, y >> kSquareBits, seed) + 2 * kGolden);
+  stream.shares_sequence_ = true;
+  stream.morton_ = spread(y & kWithin) << 1 | spread(x & kWithin);
+  return stream;
+}
 
 Vec2 SampleStream::next_pair() {
-  const uint64_t key = next_key();
+  const uint64_t key = mix(key_ + ++dimension_ * kGolden);
   if (count_ > 1 && sample_ < count_) return multi_jittered(sample_, count_, key);
   return {unit(mix(key + (2 * static_cast<uint64_t>(sample_) + 1) * kGolden)),
           unit(mix(key + (2 * static_cast<uint64_t>(sample_) + 2) * kGolden))};
 }
 
 Vec2 SampleStream::next_sobol_pair() {
-  const uint64_t key = next_key();
-  const uint32_t first = reversed(scrambled(sample_, static_cast<uint32_t>(mix(key + 1))));
+  const uint64_t key = mix(sequence_ + ++dimension_ * kGolden);
+  uint32_t index = sample_;
+  if (shares_sequence_) index |= shuffled_morton(morton_, mix(key + 4)) << std::bit_width(count_ - 1);
+  const uint32_t first = reversed(scrambled(index, static_cast<uint32_t>(mix(key + 1))));
   const uint32_t x = scrambled(first, static_cast<uint32_t>(mix(key + 2)));
   const uint32_t y = scrambled(second_sobol(first), static_cast<uint32_t>(mix(key + 3)));
   return {x * 0x1p-32, y * 0x1p-32};

@@ -176,6 +176,29 @@ TEST(Denoise, IsNearerToTheTruth) {
   EXPECT_THROW(render(*world(scene), {}), std::invalid_argument);
 }
 
+TEST(Path, PictureIsTheSameBitsByThreadsCropsAndRounds) {
+  SmallScene scene = lit_balls();
+  const auto whole = render(*world(scene), {.threads = 1});
+  EXPECT_TRUE(same(whole.image, render(*world(scene), {.threads = 5}).image));
+
+  const std::string file = (std::filesystem::temp_directory_path() / "lekalo_path_test.partial").string();
+  RenderOptions options{.part = PicturePart{.index = 1, .count = 2}, .partial_file = file, .identity = 42};
+  EXPECT_FALSE(render(*world(scene), options).complete);
+  options.part.reset();
+  options.resume_files = {file};
+  EXPECT_TRUE(same(whole.image, render(*world(scene), options).image));
+  std::filesystem::remove(file);
+
+  scene.model.film.crop = {13, 7, 31, 29};
+  const Image crop = render(*world(scene), {}).image;
+  for (size_t c = 0; c < crop.channels.size(); ++c)
+    for (int y = 0; y < crop.height; ++y)
+      for (int x = 0; x < crop.width; ++x) {
+        const size_t i = static_cast<size_t>(y) * crop.width + x, j = static_cast<size_t>(y + 7) * 45 + x + 13;
+        ASSERT_EQ(value_at(crop.channels[c], i), value_at(whole.image.channels[c], j)) << crop.channels[c].name;
+      }
+}
+
 TEST(Noise, BlocksTakeWhatTheyNeed) {
   for (const char* filter : {"box", "mitchell"}) {
     SmallScene scene = lit_balls();

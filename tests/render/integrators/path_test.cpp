@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
 
 #include "render/integrators/dispersion.h"
 #include "render/lobes/bsdf.h"
@@ -103,6 +106,68 @@ TEST(Path, RoughMetalUnderASphereLight) {
     // Radiance times the solid angle is the irradiance at right angles.
     truth *= 2 * kPi / (1 - 0.5 * height) / (kN * kN);
     expect_mean(estimate(*world(scene), 4.0 * out, -out, 4096), truth, "metal", 1e-2);
+  }
+}
+
+// The error of a picture as the difference of two: mean square, and the part of it in waves no shorter than an eighth
+// of the side.
+struct PictureError {
+  double mean_square = 0, low = 0;
+};
+
+PictureError error_of_soft_shadow(const World& world, uint32_t samples, bool in_picture) {
+  constexpr int kSide = 64, kWaves = 8;
+  std::vector<double> error(kSide * kSide);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      Ray ray;
+      ray.origin = {0, 0, 0.5};
+      ray.direction = glm::normalize(Vec3((x + 0.5) / kSide - 0.5, (y + 0.5) / kSide - 0.5, -0.5));
+      Hit first;
+      if (!world.nearest(ray, first)) first.instance = -1;
+      for (const uint32_t seed : {1u, 2u})
+        for (uint32_t i = 0; i < samples; ++i) {
+          SampleStream random =
+              in_picture ? SampleStream::in_picture(x, y, i, samples, seed) : SampleStream(x, y, i, samples, seed);
+          error[y * kSide + x] += (seed == 1 ? 1.0 : -1.0) / samples *
+                                  world.model().integrator->trace(world, ray, first, random).radiance[0];
+        }
+    }
+  PictureError found;
+  for (const double e : error) found.mean_square += e * e / (kSide * kSide);
+  for (int v = -kWaves; v <= kWaves; ++v)
+    for (int u = -kWaves; u <= kWaves; ++u) {
+      if (u * u + v * v > kWaves * kWaves) continue;
+      std::complex<double> wave = 0;
+      for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x)
+          wave += error[y * kSide + x] * std::polar(1.0, 2 * kPi * (u * x + v * y) / kSide);
+      found.low += std::norm(wave) / std::pow(kSide, 4);
+    }
+  return found;
+}
+
+TEST(Path, ErrorOfSoftShadowsIsBlue) {
+  // A screen between a square lamp and the ground, its edge over the middle.
+  SmallScene scene;
+  scene.add(plane({0, 0, 0}, {0, 0, 1}), make_material(Diffuse{.color = 1.0}));
+  geometry::Frame screen;
+  screen.origin = {0, 0, 1};
+  scene.add(plane_part(screen, {0, 4}, {-4, 4}), make_material(Diffuse{.color = 0.0}));
+  RectangleLight light;
+  light.frame = geometry::frame_about({0, 0, 2}, {0, 0, -1});
+  light.size = {1, 1};
+  scene.light(light);
+  const auto w = world(scene);
+  for (const uint32_t samples : {1u, 4u, 16u}) {
+    const PictureError apart = error_of_soft_shadow(*w, samples, false),
+                       together = error_of_soft_shadow(*w, samples, true);
+    EXPECT_GT(apart.low, 0);
+    EXPECT_LT(together.low, 0.5 * apart.low) << samples;
+    // Over so many pixels of a penumbra it is known to a few percent.
+    EXPECT_LT(together.mean_square, 1.08 * apart.mean_square) << samples;
+    RecordProperty("low_" + std::to_string(samples), std::to_string(together.low / apart.low));
+    RecordProperty("all_" + std::to_string(samples), std::to_string(together.mean_square / apart.mean_square));
   }
 }
 

@@ -89,6 +89,45 @@ TEST(SampleStream, SobolPairsFillEveryCellOfEqualArea) {
   }
 }
 
+// How many of the 2^m boxes that cut the square in 2^wide columns hold a pair of the streams of a square of pixels.
+int boxes_met(uint32_t x0, uint32_t y0, uint32_t side, uint32_t count, int m, int wide) {
+  std::set<int> cells;
+  for (uint32_t y = y0; y < y0 + side; ++y)
+    for (uint32_t x = x0; x < x0 + side; ++x)
+      for (uint32_t i = 0; i < count; ++i) {
+        SampleStream stream = SampleStream::in_picture(x, y, i, count, 5);
+        stream.skip_pairs(3);
+        const Vec2 p = stream.next_sobol_pair();
+        cells.insert((static_cast<int>(p.x * (1 << wide)) << (m - wide)) + static_cast<int>(p.y * (1 << (m - wide))));
+      }
+  return static_cast<int>(cells.size());
+}
+
+TEST(SampleStream, SquaresOfPixelsAreEvenTogether) {
+  // Whole stretches of a sequence, a (0, m, 2)-net each: one pixel, 2 x 2, 4 x 4 and 8 x 8 pixels of 4 samples.
+  for (const int steps : {0, 1, 2, 3}) {
+    const uint32_t side = 1u << steps;
+    const int m = 2 + 2 * steps;
+    for (int wide = 0; wide <= m; ++wide)
+      EXPECT_EQ(boxes_met(3 * side, 37 * side, side, 4, m, wide), 1 << m) << side << ' ' << wide;
+  }
+  // Squares out of step are not whole stretches.
+  EXPECT_LT(boxes_met(3, 5, 4, 4, 6, 3), 64);
+}
+
+TEST(SampleStream, SharedSequenceLeavesOtherPairsAsTheyAre) {
+  SampleStream apart(300, 70, 3, 8, 5), shared = SampleStream::in_picture(300, 70, 3, 8, 5);
+  EXPECT_EQ(apart.next_pair(), shared.next_pair());
+  EXPECT_NE(apart.next_sobol_pair(), shared.next_sobol_pair());
+  EXPECT_EQ(apart.next_pair(), shared.next_pair());
+}
+
+TEST(StratifiedSampler, SamplesBeyondItsOwnAreDrawnApart) {
+  const SamplerPtr sampler = make_stratified_sampler(8, 5);
+  EXPECT_EQ(sampler->stream(3, 4, 7).next_sobol_pair(), SampleStream::in_picture(3, 4, 7, 8, 5).next_sobol_pair());
+  EXPECT_EQ(sampler->stream(3, 4, 8).next_sobol_pair(), SampleStream(3, 4, 8, 8, 5).next_sobol_pair());
+}
+
 TEST(SampleStream, SkippedPairsAreThoseNotDrawn) {
   SampleStream drawn(1, 2, 3, 4, 5), skipped(1, 2, 3, 4, 5);
   drawn.next_pair(), drawn.next_sobol_pair();
