@@ -5,6 +5,7 @@
 
 #include "geometry/describe.h"
 #include "render/integrators/caustics.h"
+#include "render/integrators/light_tree.h"
 #include "render/model/placed_objects.h"
 
 namespace lekalo::render {
@@ -15,27 +16,32 @@ namespace {
 
 class PathIntegrator final : public Integrator {
  public:
-  explicit PathIntegrator(const PathOptions& options, std::shared_ptr<const Caustics> caustics = nullptr)
-      : options_(options), caustics_(std::move(caustics)) {}
+  explicit PathIntegrator(const PathOptions& options, std::shared_ptr<const Caustics> caustics = nullptr,
+                          std::shared_ptr<const LightTree> tree = nullptr)
+      : options_(options), caustics_(std::move(caustics)), tree_(std::move(tree)) {}
 
   IntegratorPtr prepared(const World& world) const override {
-    if (options_.photons == 0) return nullptr;
-    return std::make_shared<PathIntegrator>(
-        options_,
-        trace_caustics(world, {options_.photons, options_.max_depth, options_.dispersion || options_.spectral}));
+    std::shared_ptr<const LightTree> tree = make_light_tree(world);
+    std::shared_ptr<const Caustics> caustics;
+    if (options_.photons > 0)
+      caustics =
+          trace_caustics(world, {options_.photons, options_.max_depth, options_.dispersion || options_.spectral});
+    if (!caustics && !tree) return nullptr;
+    return std::make_shared<PathIntegrator>(options_, std::move(caustics), std::move(tree));
   }
   RaySample trace(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const override {
-    return trace_path(world, ray, first, random, options_, caustics_.get());
+    return trace_path(world, ray, first, random, options_, caustics_.get(), tree_.get());
   }
   bool tells_parts() const override { return true; }
   RaySample trace_parts(const World& world, const Ray& ray, const Hit& first, SampleStream& random) const override {
-    return trace_path(world, ray, first, random, options_, caustics_.get(), true);
+    return trace_path(world, ray, first, random, options_, caustics_.get(), tree_.get(), true);
   }
   std::any made_from() const override { return options_; }
 
  private:
   PathOptions options_;
   std::shared_ptr<const Caustics> caustics_;
+  std::shared_ptr<const LightTree> tree_;
 };
 
 }  // namespace

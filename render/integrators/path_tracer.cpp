@@ -7,6 +7,7 @@
 
 #include "render/integrators/caustics.h"
 #include "render/integrators/dispersion.h"
+#include "render/integrators/light_tree.h"
 #include "render/integrators/path_limits.h"
 #include "render/integrators/phase_function.h"
 #include "render/integrators/phong_model.h"
@@ -87,8 +88,14 @@ class PathTracer {
  public:
   // `parts`: where the light comes from, or null for who does not want to know.
   PathTracer(const World& world, SampleStream& random, const PathOptions& options, const Caustics* caustics,
-             RaySample& sample, LightParts* parts)
-      : world_(world), random_(random), options_(options), caustics_(caustics), sample_(sample), parts_(parts) {
+             const LightTree* tree, RaySample& sample, LightParts* parts)
+      : world_(world),
+        random_(random),
+        options_(options),
+        caustics_(caustics),
+        tree_(tree),
+        sample_(sample),
+        parts_(parts) {
     if (options.spectral) take_four_wavelengths();
     for (const LightPtr& lamp : world.lamps()) has_backdrop_ = has_backdrop_ || lamp->is_backdrop();
   }
@@ -104,7 +111,7 @@ class PathTracer {
     Vec3 point{0};
     double density = 0;           // of the direction
     double gone = 0;              // way to the present ray's origin
-    std::vector<double> choices;  // of each lamp, and of what glows
+    std::vector<double> choices;  // of each lamp, and of what glows; without a tree
   };
 
   // Light at the end of the path; `straight`: from a lamp or glowing thing to the first surface.
@@ -116,8 +123,15 @@ class PathTracer {
   void note_first(const Boundary& seen, const Bsdf& bsdf, const Vec3& in);
   void add_lamps_along(const Ray& ray, double end, const Medium& medium);
   void add_lamp(const Boundary& seen, const Bsdf& bsdf, const Media& media, const Vec2& choice, const Vec2& square);
-  void choose_lamps(const Vec3& point);
-  void add_glow(size_t number, const Boundary& seen, const Bsdf& bsdf, const Media& media, const Vec2& square);
+  // A lamp, or behind the lamps a thing that glows.
+  std::optional<LightTree::Choice> choose_lamp(const Vec3& point, double random);
+  void weigh_lamps(const Vec3& point);
+  // That of a number at the place where the ray was drawn.
+  double choice_at_origin(size_t number) const {
+    return tree_ ? tree_->probability(origin_.point, number) : origin_.choices[number];
+  }
+  void add_glow(const LightTree::Choice& chosen, const Boundary& seen, const Bsdf& bsdf, const Media& media,
+                const Vec2& square);
   double weight_of_glow(const SurfacePoint& point) const;
   void add_caustic(const Boundary& seen, const Bsdf& bsdf);
   void add_caught_shadow(const Boundary& seen, const Spectrum& strength, const Media& media);
@@ -133,6 +147,7 @@ class PathTracer {
   SampleStream& random_;
   const PathOptions& options_;
   const Caustics* caustics_;
+  const LightTree* tree_;
   RaySample& sample_;
   LightParts* parts_;
   std::vector<std::pair<const Photon*, Spectrum>> landed_;  // what add_caustic found, for the parts
@@ -140,7 +155,7 @@ class PathTracer {
   bool first_passed_ = false;
   bool has_backdrop_ = false;
   Origin origin_;
-  std::vector<double> choices_;        // of lamps at the present place, and of what glows
+  std::vector<double> choices_;        // of lamps at the present place, and of what glows; without a tree
   HeroWavelengths hero_;               // of a spectral path
   Wavelengths colors_ = kPrimaries;    // of the lanes
   Wavelengths wavelengths_ = kYellow;  // of refraction
@@ -219,14 +234,23 @@ void PathTracer::add_lamps_along(const Ray& ray, double end, const Medium& mediu
                           ? lamp->distance > origin_.gone && lamp->distance <= origin_.gone + end
                           : origin_.gone == 0;
     if (!here) continue;
-    const double weight = origin_.sharp ? 1 : power_heuristic(origin_.density, origin_.choices[i] * lamp->density);
+    const double weight = origin_.sharp ? 1 : power_heuristic(origin_.density, choice_at_origin(i) * lamp->density);
     const Spectrum light = static_cast<float>(weight * lamp->density) * light_of(*lamps[i], lamp->irradiance, colors_) *
                            transmittance(medium.extinction(), lamp->distance - origin_.gone);
     add(light, world_.lamp_groups()[i], bounces_ == 1 && !origin_.sharp);
   }
 }
 
-void PathTracer::choose_lamps(const Vec3& point) {
+std::optional<LightTree::Choice> PathTracer::choose_lamp(const Vec3& point, double random) {
+  if (tree_) return tree_->choose(point, random);
+  weigh_lamps(point);
+  if (choices_.empty()) return std::nullopt;
+  size_t i = 0;
+  while (i + 1 < choices_.size() && random >= choices_[i]) random -= choices_[i++];
+  return LightTree::Choice{i, choices_[i]};
+}
+
+void PathTracer::weigh_lamps(const Vec3& point) {
   const std::vector<LightPtr>& lamps = world_.lamps();
   const std::vector<World::Glow>& glows = world_.glows();
   choices_.assign(lamps.size() + glows.size(), 1);
@@ -245,15 +269,13 @@ void PathTracer::choose_lamps(const Vec3& point) {
 
 void PathTracer::add_lamp(const Boundary& seen, const Bsdf& bsdf, const Media& media, const Vec2& choice,
                           const Vec2& square) {
-  if (choices_.empty()) return;
-  double place = choice.x;
-  size_t i = 0;
-  while (i + 1 < choices_.size() && place >= choices_[i]) place -= choices_[i++];
-  if (i >= world_.lamps().size()) {
-    add_glow(i - world_.lamps().size(), seen, bsdf, media, square);
+  const std::optional<LightTree::Choice> chosen = choose_lamp(seen.point.position, choice.x);
+  if (!chosen) return;
+  if (chosen->number >= world_.lamps().size()) {
+    add_glow(*chosen, seen, bsdf, media, square);
     return;
   }
-  const Light& lamp = *world_.lamps()[i];
+  const Light& lamp = *world_.lamps()[chosen->number];
   const LightSample sample = lamp.sample_all(seen.point.position, square);
   if (sample.irradiance.is_zero()) return;
   const Spectrum reflected = bsdf.evaluate(sample.direction);
@@ -270,21 +292,20 @@ void PathTracer::add_lamp(const Boundary& seen, const Bsdf& bsdf, const Media& m
     visible = unobstructed(world_, ray, behind ? seen.behind : media, colors_, sample_);
     if (visible.is_zero()) return;
   }
-  const double chosen = choices_[i];
   const double weight =
-      sample.density > 0 ? power_heuristic(chosen * sample.density, bsdf.density(sample.direction)) : 1;
-  const Spectrum light =
-      static_cast<float>(weight / chosen) * (visible * reflected * light_of(lamp, sample.irradiance, colors_));
+      sample.density > 0 ? power_heuristic(chosen->probability * sample.density, bsdf.density(sample.direction)) : 1;
+  const Spectrum light = static_cast<float>(weight / chosen->probability) *
+                         (visible * reflected * light_of(lamp, sample.irradiance, colors_));
   note_first(seen, bsdf, sample.direction);
   ++bounces_;
-  add(light, world_.lamp_groups()[i], bounces_ == 1);
+  add(light, world_.lamp_groups()[chosen->number], bounces_ == 1);
   --bounces_;
 }
 
 // What meets the glowing object first counts; light that comes straight through panes is left to drawn directions.
-void PathTracer::add_glow(size_t number, const Boundary& seen, const Bsdf& bsdf, const Media& around,
+void PathTracer::add_glow(const LightTree::Choice& chosen, const Boundary& seen, const Bsdf& bsdf, const Media& around,
                           const Vec2& square) {
-  const World::Glow& glow = world_.glows()[number];
+  const World::Glow& glow = world_.glows()[chosen.number - world_.lamps().size()];
   const Cone cone = cone_of(glow, seen.point.position);
   Ray ray;
   const Vec3 direction = cone.direction(square);
@@ -301,7 +322,7 @@ void PathTracer::add_glow(size_t number, const Boundary& seen, const Bsdf& bsdf,
   const Boundary met(world_, ray, hit, wavelengths_, media);
   if (!met.changes_filling || met.point.instance != glow.instance) return;
   const Spectrum emission = met.material->scattering(met.point, colors_).emission;
-  const double density = choices_[world_.lamps().size() + number] / cone.solid_angle();
+  const double density = chosen.probability / cone.solid_angle();
   const double weight = power_heuristic(density, bsdf.density(direction));
   const Spectrum light = static_cast<float>(weight / density) *
                          (reflected * emission * transmittance(media.current().extinction(), hit.t));
@@ -317,8 +338,8 @@ double PathTracer::weight_of_glow(const SurfacePoint& point) const {
   const std::vector<World::Glow>& glows = world_.glows();
   for (size_t i = 0; i < glows.size(); ++i)
     if (glows[i].instance == point.instance)
-      return power_heuristic(
-          origin_.density, origin_.choices[world_.lamps().size() + i] / cone_of(glows[i], origin_.point).solid_angle());
+      return power_heuristic(origin_.density, choice_at_origin(world_.lamps().size() + i) /
+                                                  cone_of(glows[i], origin_.point).solid_angle());
   return 1;
 }
 
@@ -454,12 +475,9 @@ bool PathTracer::is_scattered(Ray& ray, double end, const Medium& medium, const 
 
 void PathTracer::add_lamp_in_medium(const Vec3& place, const Vec3& along, const Medium& medium, const Media& media) {
   const Vec2 choice = random_.next_pair(), square = random_.next_pair();
-  choose_lamps(place);
-  double rest = choice.x;
-  size_t i = 0;
-  while (i + 1 < choices_.size() && rest >= choices_[i]) rest -= choices_[i++];
-  if (i >= world_.lamps().size()) return;  // what glows is left to drawn directions
-  const Light& lamp = *world_.lamps()[i];
+  const std::optional<LightTree::Choice> chosen = choose_lamp(place, choice.x);
+  if (!chosen || chosen->number >= world_.lamps().size()) return;  // what glows is left to drawn directions
+  const Light& lamp = *world_.lamps()[chosen->number];
   const LightSample sample = lamp.sample_all(place, square);
   if (sample.irradiance.is_zero()) return;
   Ray ray;
@@ -469,8 +487,9 @@ void PathTracer::add_lamp_in_medium(const Vec3& place, const Vec3& along, const 
   ray.t_max = sample.distance;
   const Spectrum visible = lamp.casts_shadows() ? unobstructed(world_, ray, media, colors_, sample_) : whole(colors_);
   const double turned = phase(glm::dot(sample.direction, along), medium.forward);
-  const double weight = sample.density > 0 ? power_heuristic(choices_[i] * sample.density, turned) : 1;
-  add(static_cast<float>(weight * turned / choices_[i]) * (visible * light_of(lamp, sample.irradiance, colors_)));
+  const double weight = sample.density > 0 ? power_heuristic(chosen->probability * sample.density, turned) : 1;
+  add(static_cast<float>(weight * turned / chosen->probability) *
+      (visible * light_of(lamp, sample.irradiance, colors_)));
 }
 
 void PathTracer::trace(Ray ray, Hit hit) {
@@ -530,7 +549,6 @@ void PathTracer::trace(Ray ray, Hit hit) {
     if (bsdf.is_black()) return;
     if (bsdf.has_spread()) {
       const Vec2 lamp_choice = random_.next_sobol_pair(), lamp_square = random_.next_sobol_pair();
-      choose_lamps(seen.point.position);
       add_lamp(seen, bsdf, media, lamp_choice, lamp_square);
       if (caustics_) add_caustic(seen, bsdf);
     } else {
@@ -579,10 +597,10 @@ void PathTracer::trace(Ray ray, Hit hit) {
 }  // namespace
 
 RaySample trace_path(const World& world, const Ray& ray, const Hit& first, SampleStream& random,
-                     const PathOptions& options, const Caustics* caustics, bool tell_parts) {
+                     const PathOptions& options, const Caustics* caustics, const LightTree* tree, bool tell_parts) {
   RaySample sample;
   const auto parts = tell_parts ? std::make_shared<LightParts>() : nullptr;
-  PathTracer tracer(world, random, options, caustics, sample, parts.get());
+  PathTracer tracer(world, random, options, caustics, tree, sample, parts.get());
   tracer.trace(ray, first);
   sample.parts = parts;
   return sample;

@@ -38,6 +38,7 @@
 namespace lekalo::render {
 
 class Bsdf;
+class LightTree;
 struct Caustics;
 
 struct PathOptions {
@@ -52,7 +53,9 @@ struct PathOptions {
 
 // `tell_parts`: where the light comes from (RaySample::parts).
 // `caustics`: the photons of the scene; null: there are none, and their light comes as the first table says.
+// `tree`: of the world's lamps; null: they are looked at one by one.
 RaySample trace_path(const World& world, const Ray& ray, const Hit& first, SampleStream& random,
-                     const PathOptions& options, const Caustics* caustics = nullptr, bool tell_parts = false);
+                     const PathOptions& options, const Caustics* caustics = nullptr, const LightTree* tree = nullptr,
+                     bool tell_parts = false);
 
 }  // namespace lekalo::render

@@ -1,0 +1,79 @@
+// Choice among many lamps: a binary tree whose nodes know a box, a cone of directions and the strength of the lamps
+// below them, so that one is chosen in a time that grows with the logarithm of their number, about as the light that it
+// may bring to a place (Conty Estevez, Kulla, "Importance sampling of many lights with adaptive tree splitting", 2018).
+//
+// Nodes that are large as seen from the place are split, so that near lamps are asked one by one; the nodes that are
+// left and the near lamps are weighed together, and below a chosen node one way down is drawn.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "render/trace/world.h"
+
+namespace lekalo::render {
+
+// With more lamps and glowing things than these the tree pays.
+inline constexpr size_t kManyLamps = 8;
+
+class LightTree {
+ public:
+  // Of the lamps of a world, and behind them what glows: numbers count them in this order.
+  explicit LightTree(const World& world);
+
+  struct Choice {
+    size_t number;
+    double probability;
+  };
+  // By a random number that is uniform in [0, 1); nothing where surely no lamp brings light.
+  std::optional<Choice> choose(const Vec3& point, double random) const;
+  // With which choose() returns the number.
+  double probability(const Vec3& point, size_t number) const;
+
+ private:
+  // Irradiance at right angles by lamps: of those whose light does not fall off, and at distance 1 of the others. All
+  // of it leaves within `spread` of a direction that is within `opening` of the axis.
+  struct Node {
+    geometry::Box3 box;
+    Vec3 axis{0, 0, 1};
+    double opening = geometry::kPi, spread = geometry::kPi;
+    double even = 0, falling = 0;
+    int parent = -1, left = -1, right = -1;  // nodes; of leaves -1
+    size_t first = 0, count = 1;             // of a leaf's lamps, in numbers_
+  };
+
+  static Node merged(const Node& a, const Node& b);
+  static double cost(const Node& node);
+  static std::optional<Node> placed(const Light& lamp);
+  int build(std::vector<Node>& leaves, size_t begin, size_t end);
+  size_t best_split(std::vector<Node>& leaves, size_t begin, size_t end) const;
+  double importance(const Node& node, const Vec3& point) const;
+  double left_share(const Node& node, const Vec3& point) const;
+  double brings(size_t number, const Vec3& point) const;
+  // A node, or the lamp of a number (node -1), and with which probability it is chosen.
+  struct Candidate {
+    int node;
+    size_t number;
+    double probability;
+  };
+  std::vector<Candidate> candidates(const Vec3& point) const;
+  std::vector<Candidate> lamps_of(const Node& leaf, const Vec3& point) const;
+  void add_lamps(const Node& leaf, const Vec3& point, std::vector<Candidate>& list) const;
+  static void share_out(std::vector<Candidate>& list);
+  static const Candidate& chosen_of(const std::vector<Candidate>& list, double& random);
+
+  const World& world_;
+  double least_square_;          // of distances
+  std::vector<Node> nodes_;      // the root is the first
+  std::vector<int> leaf_of_;     // by number; -1: in no tree
+  std::vector<size_t> numbers_;  // of lamps in the tree, those of a leaf together
+  std::vector<size_t> apart_;    // lamps in no tree: the sky, and what is not known to lie somewhere
+};
+
+// Null for a world of few lamps.
+std::shared_ptr<const LightTree> make_light_tree(const World& world);
+
+}  // namespace lekalo::render
