@@ -12,6 +12,7 @@
 #include "render/cameras/framed_content.h"
 #include "render/cameras/window.h"
 #include "render/drawing/annotations/annotations.h"
+#include "render/drawing/annotations/detail_circle.h"
 #include "render/drawing/annotations/label_placement.h"
 #include "render/drawing/areas/fills.h"
 #include "render/drawing/page/graph_axes.h"
@@ -76,6 +77,7 @@ class ViewDrawing {
               Figure& figure)
       : model_(std::move(model)), view_(view), clipped_(clipped), options_(options), figure_(figure), world_(model_) {
     figure_.seconds_of_world += seconds_since(begin_);
+    if (const DetailPtr detail = detail_of(model_->drawing)) circle_ = circle_of(view_, *detail);
   }
 
   void draw(SolidLines& solids) {
@@ -164,7 +166,9 @@ class ViewDrawing {
     picture.at = view_.at;
     picture.width = view_.width(), picture.height = view_.height();
     picture.picture = std::make_shared<const DisplayImage>(to_display(rendered.image, transform).image);
-    figure_.sheet.items.push_back(SheetGroup{"ground", "", {}, {}, {picture}});
+    SheetGroup ground{"ground", "", {}, {}, {picture}};
+    if (circle_) clip(ground);
+    add_group(std::move(ground));
     figure_.seconds_of_ground += seconds_since(begin);
   }
 
@@ -179,6 +183,12 @@ class ViewDrawing {
   }
 
   void clip(SheetGroup& group) const {
+    if (circle_) {
+      group.clip_at = circle_->center - Vec2(circle_->radius);
+      group.clip_size = Vec2(2 * circle_->radius);
+      group.clip_is_round = true;
+      return;
+    }
     if (!clipped_ && !sticks_out()) return;
     group.clip_at = view_.at - Vec2(kClipFree);
     group.clip_size = Vec2(view_.width(), view_.height()) + Vec2(2 * kClipFree);
@@ -195,7 +205,9 @@ class ViewDrawing {
              off.y < view_.height() + kClipFree);
   }
   // Where the lines of objects are cut there is nothing that belongs to them.
-  bool is_cut_off(const Vec2& place) const { return clipped_ && is_beyond(place); }
+  bool is_cut_off(const Vec2& place) const {
+    return circle_ ? glm::length(place - circle_->center) > circle_->radius : clipped_ && is_beyond(place);
+  }
 
   std::string name_of(int object) const { return object < 0 ? std::string() : names_[static_cast<size_t>(object)]; }
 
@@ -362,6 +374,7 @@ class ViewDrawing {
   std::shared_ptr<const Model> model_;
   View view_;
   bool clipped_;
+  std::optional<PageCircle> circle_;  // at which a detail is cut
   const FigureOptions& options_;
   Figure& figure_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

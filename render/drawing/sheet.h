@@ -92,6 +92,7 @@ struct SheetGroup {
   std::optional<Vec2> clip_at;
   Vec2 clip_size{0};  // of a group that is cut at a rectangle
   std::vector<SheetItem> items;
+  bool clip_is_round = false;  // cut at the circle in a square instead
 };
 
 struct Sheet {

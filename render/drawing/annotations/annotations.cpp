@@ -6,9 +6,11 @@
 
 #include "geometry/box_corners.h"
 #include "render/drawing/annotations/annotation_work.h"
+#include "render/drawing/annotations/balloon.h"
 #include "render/drawing/annotations/center_lines.h"
 #include "render/drawing/annotations/color_bar.h"
 #include "render/drawing/annotations/cutting_plane.h"
+#include "render/drawing/annotations/detail_circle.h"
 #include "render/drawing/annotations/dimensions.h"
 #include "render/drawing/annotations/light_path.h"
 #include "render/drawing/annotations/page_shapes.h"
@@ -37,7 +39,7 @@ bool is_behind_eye(const AnnotationWork& work) {
   if (type == "angle") return hides("at");
   if (type == "angle_dimension") return hides("at") || hides("from") || hides("to");
   if (type == "color_bar") return hides("at");
-  if (type == "leader") return hides("at") || hides("to");
+  if (type == "leader" || type == "balloon") return hides("at") || hides("to");
   if (type == "brace" || type == "linear_dimension") return hides("from") || hides("to");
   if (type == "arrow" && f.has("to") && (f.get<Anchor>("from").on_page || f.get<Anchor>("to").on_page))
     return hides("from") || hides("to");
@@ -194,7 +196,9 @@ void add_title(const View& view, LineWork& lines, PageWork& page) {
   if (view.model.drawing.title.empty()) return;
   SheetBox box;
   const Box3 shown = bounds(view.model);
-  if (shown.bounded() && !shown.empty())
+  if (const DetailPtr detail = detail_of(view.model.drawing))
+    box = box_of(circle_of(view, *detail));
+  else if (shown.bounded() && !shown.empty())
     for (const Vec3& corner : corners(shown)) box.include(view.place(corner));
   if (!(box.lo.x < box.hi.x)) return;
   double top = box.lo.y;
@@ -217,7 +221,8 @@ void add_title(const View& view, LineWork& lines, PageWork& page) {
 
 void add_annotations(const View& view, LineWork& lines, PageWork& page) {
   add_center_lines(view, lines, page);
-  std::unique_ptr<const World> world;  // one for all light paths
+  if (detail_of(view.model.drawing)) page.anchors.clear(), page.reach.clear();  // they are cut with all lines
+  std::unique_ptr<const World> world;                                           // one for all light paths
   for (const Annotation& annotation : view.model.drawing.annotations) {
     AnnotationWork work(view, annotation, lines, page);
     const std::string& type = annotation.type;
@@ -242,10 +247,16 @@ void add_annotations(const View& view, LineWork& lines, PageWork& page) {
       add_angle_dimension(work);
     } else if (type == "leader") {
       add_leader(work);
+    } else if (type == "balloon") {
+      add_balloon(work);
     } else if (type == "brace") {
       add_brace(work);
     } else if (type == "cutting_plane") {
       add_cutting_plane(work);
+    } else if (type == "detail_circle") {
+      add_detail_circle(work);
+    } else if (type == kDetailBorder) {
+      add_detail_border(work);
     } else if (type == "color_bar") {
       add_color_bar(work);
     } else if (type == "linear_dimension") {

@@ -89,7 +89,11 @@ class Painter {
   void paint(const SheetGroup& group) {
     cairo_save(cairo_);
     if (group.clip_at) {
-      cairo_rectangle(cairo_, group.clip_at->x, group.clip_at->y, group.clip_size.x, group.clip_size.y);
+      const Vec2 &at = *group.clip_at, &size = group.clip_size;
+      if (group.clip_is_round)
+        cairo_arc(cairo_, at.x + 0.5 * size.x, at.y + 0.5 * size.y, 0.5 * size.x, 0, geometry::kTwoPi);
+      else
+        cairo_rectangle(cairo_, at.x, at.y, size.x, size.y);
       cairo_clip(cairo_);
     }
     items(group.items);

@@ -111,6 +111,16 @@ class Writer {
     return id.empty() ? id : fmt::format(" id=\"{}\"", id);
   }
 
+  static std::string clip_shape(const SheetGroup& group) {
+    const Vec2 &lo = *group.clip_at, &size = group.clip_size;
+    if (!group.clip_is_round)
+      return fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>", number(lo.x), number(lo.y),
+                         number(size.x), number(size.y));
+    const Vec2 center = lo + 0.5 * size;
+    return fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>", number(center.x), number(center.y),
+                       number(0.5 * size.x));
+  }
+
   void write(const SheetGroup& group) {
     if (group.items.empty()) return;
     const ElementNames::Within within(names_, group);
@@ -118,9 +128,7 @@ class Writer {
     if (!group.object.empty()) text_ += fmt::format(" data-object=\"{}\"", xml_text(group.object));
     if (group.clip_at) {
       const std::string clip = names_.unique("clip");
-      definitions_ += fmt::format(
-          "<clipPath id=\"{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n", clip,
-          number(group.clip_at->x), number(group.clip_at->y), number(group.clip_size.x), number(group.clip_size.y));
+      definitions_ += fmt::format("<clipPath id=\"{}\">{}</clipPath>\n", clip, clip_shape(group));
       text_ += fmt::format(" clip-path=\"url(#{})\"", clip);
     }
     text_ += ">\n";

@@ -130,7 +130,9 @@ class Writer {
     const std::string outer = std::exchange(within_, class_options(group.kind));
     if (group.clip_at) {
       const Vec2 &lo = *group.clip_at, hi = lo + group.clip_size;
-      body_ += fmt::format("\\begin{{scope}}\n\\clip {} rectangle {};\n", place(lo), place(hi));
+      body_ += group.clip_is_round ? fmt::format("\\begin{{scope}}\n\\clip {} circle[radius={}];\n",
+                                                 place(0.5 * (lo + hi)), number(0.5 * group.clip_size.x))
+                                   : fmt::format("\\begin{{scope}}\n\\clip {} rectangle {};\n", place(lo), place(hi));
     }
     items(group.items);
     if (group.clip_at) body_ += "\\end{scope}\n";

@@ -9,6 +9,7 @@
 
 #include "render/cameras/window.h"
 #include "render/drawing/annotations/annotations.h"
+#include "render/drawing/annotations/detail_circle.h"
 #include "render/drawing/page/graph_axes.h"
 #include "render/drawing/page/legend.h"
 #include "render/drawing/text/text_layout.h"
@@ -65,9 +66,19 @@ Insets legend_room(const Model& model, const Camera& camera, const Vec2& at, con
   return insets_of(view, legend_of(model.objects));
 }
 
+// Of a detail on a page that has a scale.
+double own_scale(const Model& model, const Detail& detail, const std::string& name) {
+  if (!(detail.scale > 0))
+    does_not_fit(model.layout.scale_place,
+                 fmt::format("the detail of the panel '{}' has no scale, but the page has one", name),
+                 fmt::format("detail: {{ scale: {:g} }}", 5 * model.layout.scale));
+  return detail.scale;
+}
+
 // At a scale: millimetres for one scene unit.
 Extent extent_at(const Model& model, double scale, const std::string& name) {
   Extent extent;
+  if (const DetailPtr detail = detail_of(model.drawing)) scale *= own_scale(model, *detail, name) / model.layout.scale;
   extent.camera = model.make_camera(kTrial, kTrial);
   if (!extent.camera->is_parallel())
     does_not_fit(model.layout.scale_place,
@@ -170,6 +181,8 @@ SheetBox annotations_box(const Model& model, const Camera& camera, double millim
 }  // namespace
 
 SheetBox shown_box(const Model& model, const FramedContent& shown, const Camera& camera, double millimetres) {
+  if (const DetailPtr detail = detail_of(model.drawing))
+    return box_of(circle_of({model, camera, Vec2(0), millimetres}, *detail));
   SheetBox part = anchors_box(model, camera, millimetres);
   include(objects_box(shown, camera, millimetres), part);
   if (!(part.lo.x < kInfinity))
@@ -183,10 +196,25 @@ SheetBox annotated_box(const Model& model, const FramedContent& shown, const Cam
   return all;
 }
 
+namespace {
+
+// Of a detail whose circle is drawn with a radius that has room to grow `at_most` so many times.
+double own_growth(const Model& model, const Detail& detail, double radius, double at_most) {
+  const double grow = detail.scale * millimetres_of(model.unit).value_or(1) * detail.radius / radius;
+  if (grow > at_most * (1 + kRounding))
+    does_not_fit(
+        model.paper.size_place, fmt::format("a detail at its scale {:g} has no room in its panel", detail.scale),
+        fmt::format("scale: {:.2g} fits; or scale: fit, a larger `size` of the image", detail.scale * at_most / grow));
+  return grow;
+}
+
+}  // namespace
+
 CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, double millimetres) {
   const FramedContent objects_shown(model.objects);
   const SheetBox objects = objects_box(objects_shown, *model.camera, millimetres), picture{Vec2(0), size};
-  const bool shows_objects = objects.lo.x < kInfinity;
+  const DetailPtr detail = detail_of(model.drawing);
+  const bool shows_objects = !detail && objects.lo.x < kInfinity;
   // A camera may frame some of the objects: then its picture counts, not what lies outside of it.
   const bool frames_all = glm::all(glm::greaterThan(objects.lo, picture.lo - Vec2(kFree))) &&
                           glm::all(glm::lessThan(objects.hi, picture.hi + Vec2(kFree)));
@@ -217,6 +245,7 @@ CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, dou
     for (const int axis : {0, 1})
       if (content[axis] > 0) grow = std::min(grow, room[axis] / content[axis]);
     if (!(grow < kInfinity)) grow = 1;  // a point
+    if (detail && detail->scale > 0) grow = own_growth(model, *detail, 0.5 * content.x, grow);
     // Objects are never larger than their camera shows them.
     if (shows_objects) grow = std::min(grow, 1 / zoom);
     if (auto_height) size.y = before.y + after.y + grow * content.y;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/cameras/cameras.h"
+#include "render/model/detail.h"
 #include "render/model/section.h"
 #include "render/scene/build/builder.h"
 #include "render/scene/types/panels.h"
@@ -63,6 +64,36 @@ void give_sections(std::vector<Annotation>& annotations, const std::vector<Panel
       diagnostics.error(annotation.place, fmt::format("there is no panel '{}' with a section", name),
                         "panels: { aa: { section: { planes: { normal: -y }, title: A } } }");
   }
+}
+
+// The details that marks of other panels speak of, and the way in which they are seen.
+void give_details(std::vector<Annotation>& annotations, const std::vector<Panel>& panels, Diagnostics& diagnostics) {
+  for (Annotation& annotation : annotations) {
+    if (annotation.type != "detail_circle") continue;
+    const std::string& name = annotation.values.text("of");
+    const auto panel = std::find_if(panels.begin(), panels.end(), [&](const Panel& one) {
+      return one.name == name && one.camera && detail_of(one.drawing);
+    });
+    if (panel == panels.end()) {
+      diagnostics.error(
+          annotation.place, fmt::format("there is no panel '{}' with a detail", name),
+          "panels: { b: { camera: { view: front }, detail: { around: [0, 0, 0], radius: 2, title: B } } }");
+      continue;
+    }
+    annotation.values.set("detail", detail_of(panel->drawing));
+    annotation.values.set("sight", panel->camera->view_direction());
+  }
+}
+
+// A detail shows what its circle holds, and of annotations its own: those of the whole drawing speak of other places.
+void make_detail(const DetailPtr& detail, bool own_annotations, const std::map<std::string, Style>& styles,
+                 Panel& panel) {
+  if (!panel.camera->is_parallel() || panel.camera->is_graph())
+    throw geometry::FieldError("camera", "a detail is a view by a parallel camera", "camera: { view: front }");
+  panel.camera_frames = true;
+  if (!own_annotations) panel.drawing.annotations.clear();
+  panel.drawing.legend.reset();
+  panel.drawing.annotations.push_back(border_of(detail, styles.at("thin")));
 }
 
 }  // namespace
@@ -179,11 +210,19 @@ void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
         panel.drawing.axes.reset();  // those of the page's graphs
       }
     }
+    if (read.detail && panel.camera) {
+      const bool own_annotations = read.drawing && read.drawing->given("annotations");
+      attempt(place, "'detail'", [&] { return make_detail(read.detail, own_annotations, model.styles, panel), true; });
+    }
     model.panels.push_back(std::move(panel));
   });
   const std::vector<Panel> known = model.panels;
-  for (Panel& panel : model.panels) give_sections(panel.drawing.annotations, known, diagnostics_);
+  for (Panel& panel : model.panels) {
+    give_sections(panel.drawing.annotations, known, diagnostics_);
+    give_details(panel.drawing.annotations, known, diagnostics_);
+  }
   give_sections(model.drawing.annotations, known, diagnostics_);
+  give_details(model.drawing.annotations, known, diagnostics_);
 }
 
 bool Builder::check_panel(const Value& name) {

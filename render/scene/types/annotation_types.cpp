@@ -124,6 +124,17 @@ TypeDeclaration leader_annotation() {
   return finish(with_side(type));
 }
 
+TypeDeclaration balloon_annotation() {
+  TypeDeclaration type = annotation("balloon", "The number of a part in a circle, with a line to the part.", "thin");
+  type.example("at: [0, 0, 0], to: [1, 1, 0], text: '1'")
+      .field("at", anchor(), "the part")
+      .field("to", anchor(), "the middle of the circle")
+      .field("text", label(), "its number; TeX in single quotes")
+      .field("radius", page_length().positive(), "of the circle; a longer text has a larger one", "3 mm")
+      .field("head", choice({"arrow", "dot", "none"}), "end of the line", "dot");
+  return finish(type);
+}
+
 TypeDeclaration brace_annotation() {
   TypeDeclaration type = annotation("brace", "A brace along a distance, with a text at its tip.", "thin");
   type.field("from", anchor(), "where it begins")
@@ -273,6 +284,15 @@ TypeDeclaration cutting_plane() {
   return finish(type);
 }
 
+TypeDeclaration detail_circle() {
+  TypeDeclaration type =
+      annotation("detail_circle",
+                 "What the detail of another panel shows: its circle and its letter, in a view the same way.", "thin");
+  type.field("of", text(), "name of the panel that has the detail")
+      .field("leader", angle(), "direction of the letter from the middle, from the right upwards", "45");
+  return finish(type);
+}
+
 constexpr double kNothing = 1e-12;  // of the lengths from which a size is computed
 constexpr double kNoAngle = 1e-9;   // radians
 
@@ -319,6 +339,7 @@ std::vector<TypeDeclaration> annotation_types() {
           axes_annotation(),
           angle_annotation(),
           leader_annotation(),
+          balloon_annotation(),
           brace_annotation(),
           linear_dimension(),
           round_dimension("radius_dimension", "The radius of a circle, an arc, or a round surface."),
@@ -327,6 +348,7 @@ std::vector<TypeDeclaration> annotation_types() {
           knots_annotation(),
           light_path(),
           cutting_plane(),
+          detail_circle(),
           color_bar()};
 }
 

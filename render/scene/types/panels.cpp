@@ -27,7 +27,8 @@ TypeDeclaration panel_type() {
       .optional("drawing", group(drawing_fields()), "what differs from the scene's `drawing`")
       .optional("objects", references({Category::object}).count(0), "what it shows instead of the scene's objects")
       .optional("section", group(section_fields(true)), "what is taken away of its solids to show their inside")
-      .optional("title", label(), "above it; of a section with a title A it is A–A by default")
+      .optional("detail", group(detail_fields()), "a circle that it shows of its view, enlarged")
+      .optional("title", label(), "above it; of a section with a title A it is A–A by default, of a detail B (5:1)")
       .built_by([](const Fields& f) -> std::any {
         PanelAsRead panel;
         if (f.has("camera")) panel.camera = f.get<CameraFactory>("camera");
@@ -40,8 +41,11 @@ TypeDeclaration panel_type() {
           }
         }
         if (f.has("section")) panel.section = section_in(f);
+        if (f.has("detail")) panel.detail = std::make_shared<const Detail>(detail_of(f.group("detail")));
         if (f.has("title"))
           panel.title = f.get<TextTemplate>("title").text();
+        else if (panel.detail)
+          panel.title = view_title(*panel.detail);
         else if (panel.section && !panel.section->title.empty())
           panel.title = panel.section->title + "–" + panel.section->title;
         return panel;

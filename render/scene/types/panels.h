@@ -6,6 +6,7 @@
 #include <string>
 
 #include "render/cameras/cameras.h"
+#include "render/model/detail.h"
 #include "render/model/objects.h"
 #include "render/model/section.h"
 
@@ -16,6 +17,7 @@ struct PanelAsRead {
   std::optional<Objects> objects;
   std::optional<geometry::Fields> drawing;  // by drawing_fields(); what it does not say the scene's drawing does
   std::shared_ptr<const Section> section;   // null: none
+  DetailPtr detail;                         // null: none
   std::string title;                        // empty: none
 };
 

@@ -85,6 +85,8 @@ TEST(Manual, ExamplesAreScenes) {
     // A cutting plane is that of a panel with a section.
     if (type.name == "cutting_plane")
       scene += "panels: { text: { camera: { view: front }, section: { planes: { normal: -y } } } }\n";
+    if (type.name == "detail_circle")
+      scene += "panels: { text: { camera: { view: front }, detail: { around: [0, 0, 0], radius: 1 } } }\n";
     EXPECT_EQ(build_text(scene).said, "") << type.name << "\n" << scene;
   }
 }
