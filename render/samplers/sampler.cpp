@@ -189,9 +189,17 @@ Vec2 SampleStream::next_pair() {
 
 Vec2 SampleStream::next_sobol_pair() {
   const uint64_t key = mix(sequence_ + ++dimension_ * kGolden);
-  uint32_t index = sample_;
-  if (shares_sequence_) index |= shuffled_morton(morton_, mix(key + 4)) << std::bit_width(count_ - 1);
-  const uint32_t first = reversed(scrambled(index, static_cast<uint32_t>(mix(key + 1))));
+  uint32_t first;
+  if (shares_sequence_) {
+    // The samples of a pixel are shuffled by a hash of their own: that of scrambled() is too weak to part the orders of
+    // two pairs all over a picture.
+    const int bits = std::bit_width(count_ - 1);
+    const uint32_t pixel = shuffled_morton(morton_, mix(key + 4));
+    const uint32_t own = scrambled(sample_, static_cast<uint32_t>(mix(key + 5 + (uint64_t{morton_} + 1) * kGolden)));
+    first = reversed(pixel << bits | (own & ((1u << bits) - 1)));
+  } else {
+    first = reversed(scrambled(sample_, static_cast<uint32_t>(mix(key + 1))));
+  }
   const uint32_t x = scrambled(first, static_cast<uint32_t>(mix(key + 2)));
   const uint32_t y = scrambled(second_sobol(first), static_cast<uint32_t>(mix(key + 3)));
   return {x * 0x1p-32, y * 0x1p-32};
