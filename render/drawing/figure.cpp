@@ -47,6 +47,23 @@ void add_once(std::string what, std::vector<std::string>& all) {
   if (std::find(all.begin(), all.end(), what) == all.end()) all.push_back(std::move(what));
 }
 
+// Whether a box about a line is outside of the square about the circle: what is cut off whole is not written.
+bool is_apart(const Path& path, double half_width, const PageCircle& circle) {
+  SheetBox box;
+  box.include(path.from);
+  for (const PathStep& step : path.steps) {
+    box.include(step.to);
+    if (step.kind == PathStep::Kind::curve) box.include(step.first), box.include(step.second);
+    if (step.kind != PathStep::Kind::arc) continue;
+    const PictureEllipse& ellipse = step.ellipse;
+    const Vec2 half = glm::abs(ellipse.x) + glm::abs(ellipse.y);
+    box.include(ellipse.center - half), box.include(ellipse.center + half);
+  }
+  const Vec2 reach(circle.radius + half_width);
+  return glm::any(glm::lessThan(box.hi, circle.center - reach)) ||
+         glm::any(glm::greaterThan(box.lo, circle.center + reach));
+}
+
 // What of the objects only lines show is not rendered under them. Copies of a group stay copies of one.
 class WithoutLines {
  public:
@@ -292,6 +309,7 @@ class ViewDrawing {
     const Path whole = view_.placed(fitted_path(*line.curve, t, breaks, kFitted));
     // Without caps it shows nothing.
     if (drawn.pen.cap == LineLook::Cap::butt && is_point(whole, kPoint)) return drawn;
+    if (circle_ && is_apart(whole, drawn.pen.half_width, *circle_)) return drawn;
     const Overlaps::Pen pen{drawn.pen.half_width, drawn.pen.opacity, drawn.pen.dash.empty(), hidden, stroke.object};
     for (Path& path : overlaps_.left_of(whole, pen)) {
       add_obstacles(path);
