@@ -106,8 +106,9 @@ class PathTracer {
   // Where the ray was drawn: what lamps would have been asked there.
   struct Origin {
     bool eye = true;
-    bool sharp = true;      // by a mirror or a smooth boundary: no lamp could have been
-    bool gathered = false;  // the last place that spread the path has counted its photons: a surface, no substance
+    bool sharp = true;       // by a mirror or a smooth boundary: no lamp could have been
+    bool in_medium = false;  // of scattering, which asks for no glow
+    bool gathered = false;   // the last place that spread the path has counted its photons: a surface, no substance
     Vec3 point{0};
     double density = 0;           // of the direction
     double gone = 0;              // way to the present ray's origin
@@ -334,7 +335,7 @@ void PathTracer::add_glow(const LightTree::Choice& chosen, const Boundary& seen,
 
 // Of the light of a surface that a drawn direction has met.
 double PathTracer::weight_of_glow(const SurfacePoint& point) const {
-  if (origin_.eye || origin_.sharp || origin_.gone > 0) return 1;
+  if (origin_.eye || origin_.sharp || origin_.in_medium || origin_.gone > 0) return 1;
   const std::vector<World::Glow>& glows = world_.glows();
   for (size_t i = 0; i < glows.size(); ++i)
     if (glows[i].instance == point.instance)
@@ -461,6 +462,7 @@ bool PathTracer::is_scattered(Ray& ray, double end, const Medium& medium, const 
   shown_ = false;
   origin_.eye = false;
   origin_.sharp = !asks;
+  origin_.in_medium = true;
   origin_.gathered = false;
   origin_.point = at;
   origin_.density = phase(glm::dot(direction, ray.direction), medium.forward);
@@ -574,6 +576,7 @@ void PathTracer::trace(Ray ray, Hit hit) {
       shown_ = shown_ && next->sharp;
       origin_.eye = false;
       origin_.sharp = next->sharp;
+      origin_.in_medium = false;
       if (!next->sharp) origin_.gathered = caustics_ != nullptr;
       origin_.point = seen.point.position;
       origin_.density = next->density;

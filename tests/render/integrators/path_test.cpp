@@ -274,6 +274,25 @@ TEST(Path, LightScatteredOnceIsTheIntegralOverTheRay) {
   EXPECT_LT(found.error, 1e-2 * truth);
 }
 
+// Thin smoke scatters mu_s / (4 pi) of the light of a glowing ball of radiance L over the solid angle of its cone.
+TEST(Path, SmokeShowsTheLightOfWhatGlows) {
+  const double scattered = 5e-3, radius = 2.5, off = 4, radiance = 2;
+  SmallScene scene;
+  Dielectric smoke{.index = 1};
+  smoke.scattering = Vec3(scattered);
+  scene.add(sphere({0, 0, 0}, 1), make_material(smoke));
+  scene.add(sphere({off, 0, 0}, radius), make_material(Emission{.strength = radiance}));
+  double truth = 0;
+  constexpr int kParts = 2000;
+  for (int i = 0; i < kParts; ++i) {
+    const double y = -1 + 2 * (i + 0.5) / kParts, sine = radius / std::hypot(off, y);
+    truth += 2.0 / kParts * scattered / (4 * kPi) * radiance * 2 * kPi * (1 - std::sqrt(1 - sine * sine));
+  }
+  const Estimate found = estimate(*world(scene), {0, -4, 0}, {0, 1, 0}, 1 << 18);
+  EXPECT_NEAR(found.mean, truth, 3 * found.error + 1e-2 * truth);
+  EXPECT_LT(found.error, 0.1 * truth);
+}
+
 TEST(Path, OverlappingGlassesInAFurnaceAreWhite) {
   SmallScene scene;
   scene.light(AmbientLight{.intensity = 1});
