@@ -23,22 +23,27 @@ double rounded_down(double x) {
 
 // The largest share of the sizes of a request with which the body can be made, to the digits of its first size.
 double largest_share(const Body& body, const std::vector<BlendRequest>& requests, Corners corners, size_t which) {
-  const auto works = [&](double share) {
+  const auto works = [&](double share, Room room) {
     std::vector<BlendRequest> smaller = requests;
     for (ScalarLaw& size : smaller[which].rule.sizes) size = ScalarLaw(share * size(0.0));
     try {
-      blended(body, smaller, corners);
+      blended(body, smaller, corners, room);
       return true;
     } catch (const std::invalid_argument&) {
       return false;
     }
   };
-  double lo = 0, hi = 1;
   constexpr int kHalvings = 24;
   const double size = requests[which].rule.sizes[0](0.0);
-  const auto is_known = [&] { return lo > 0 && rounded_down(lo * size) == rounded_down(hi * size); };
-  for (int k = 0; k < kHalvings && !is_known(); ++k) (works(0.5 * (lo + hi)) ? lo : hi) = 0.5 * (lo + hi);
-  return lo;
+  const auto largest = [&](Room room) {
+    double lo = 0, hi = 1;
+    const auto is_known = [&] { return lo > 0 && rounded_down(lo * size) == rounded_down(hi * size); };
+    for (int k = 0; k < kHalvings && !is_known(); ++k) (works(0.5 * (lo + hi), room) ? lo : hi) = 0.5 * (lo + hi);
+    return lo;
+  };
+  // Whether faces run into each other is looked for once: it takes long where they nearly touch.
+  const double share = largest(Room::assumed);
+  return share > 0 && works(share, Room::checked) ? share : largest(Room::checked);
 }
 
 // A formula of parameters alone is a constant.

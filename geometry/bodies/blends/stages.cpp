@@ -105,7 +105,7 @@ void check_room(const Body& made, const Body& body, const std::vector<BlendReque
 
 }  // namespace
 
-Body blended(const Body& body, const std::vector<BlendRequest>& requests, Corners corners) {
+Body blended(const Body& body, const std::vector<BlendRequest>& requests, Corners corners, Room room) {
   Stage stage{body, {}};
   std::vector<BlendRequest> left = requests;
   for (;;) {
@@ -120,7 +120,7 @@ Body blended(const Body& body, const std::vector<BlendRequest>& requests, Corner
   for (const BlendRequest& one : requests) roles.insert(one.rule.role);
   number_equals(stage.body.faces, roles);
   number_equals(stage.body.edges, roles);
-  check_room(stage.body, body, requests);
+  if (room == Room::checked) check_room(stage.body, body, requests);
   return std::move(stage.body);
 }
 
