@@ -20,7 +20,8 @@ enum class Room { checked, assumed };
 // called by the role of their rule, with a number where there are several. Where edges of different radii, or convex
 // and concave ones, meet in a corner one goes after the other. The result is valid. Throws BlendError for an edge that
 // cannot be blended, with the reason.
-Body blended(const Body& body, const std::vector<BlendRequest>& requests, Corners corners = Corners::round, Room room = Room::checked);
+Body blended(const Body& body, const std::vector<BlendRequest>& requests, Corners corners = Corners::round,
+             Room room = Room::checked);
 
 // All edges at once; `edges`: the new numbers of the old edges, -1 for those that are gone. Faces keep their numbers.
 // New faces and edges have no numbers in their names.
