@@ -21,8 +21,9 @@ double rounded_down(double x) {
   return std::floor(x / unit) * unit;
 }
 
-// The largest share of the sizes of a request with which the body can be made, to the digits of its first size.
-double largest_share(const Body& body, const std::vector<BlendRequest>& requests, Corners corners, size_t which) {
+// The largest first size of a request, five digits, with which the body can be made, the others in proportion; 0 where
+// there is none.
+double largest_size(const Body& body, const std::vector<BlendRequest>& requests, Corners corners, size_t which) {
   const auto works = [&](double share, Room room) {
     std::vector<BlendRequest> smaller = requests;
     for (ScalarLaw& size : smaller[which].rule.sizes) size = ScalarLaw(share * size(0.0));
@@ -39,11 +40,12 @@ double largest_share(const Body& body, const std::vector<BlendRequest>& requests
     double lo = 0, hi = 1;
     const auto is_known = [&] { return lo > 0 && rounded_down(lo * size) == rounded_down(hi * size); };
     for (int k = 0; k < kHalvings && !is_known(); ++k) (works(0.5 * (lo + hi), room) ? lo : hi) = 0.5 * (lo + hi);
-    return lo;
+    return lo > 0 ? rounded_down(lo * size) : 0;
   };
-  // Whether faces run into each other is looked for once: it takes long where they nearly touch.
-  const double share = largest(Room::assumed);
-  return share > 0 && works(share, Room::checked) ? share : largest(Room::checked);
+  // Whether faces run into each other is looked for once, with the size that is told: it takes long where they nearly
+  // touch.
+  const double found = largest(Room::assumed);
+  return found > 0 && works(found / size, Room::checked) ? found : largest(Room::checked);
 }
 
 // A formula of parameters alone is a constant.
@@ -79,10 +81,9 @@ BodyPtr made(const Body& body, const std::vector<BlendRequest>& requests, Corner
     for (size_t r = 0; r < requests.size() && error.too_large; ++r) {
       const BlendRule& rule = requests[r].rule;
       if (!rule.is_constant()) continue;
-      const double share = largest_share(body, requests, corners, r);
-      if (!(share > 0)) continue;
-      hint = fmt::format("the largest {} that fits is {:.5g} ({})", rule.field,
-                         rounded_down(share * rule.sizes[0](0.0)), rule.role);
+      const double size = largest_size(body, requests, corners, r);
+      if (!(size > 0)) continue;
+      hint = fmt::format("the largest {} that fits is {:.5g} ({})", rule.field, size, rule.role);
       break;
     }
     throw FieldError(list, message, hint);
