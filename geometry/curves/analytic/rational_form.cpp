@@ -95,6 +95,9 @@ class RationalCurve {
   Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
 };
 
+// Quarter turns: more of them are no figure, and a form of many thousand spans serves nobody.
+constexpr int kMostSpans = 4096;
+
 // Ends of spans, from lo to hi.
 std::vector<double> span_ends(const Interval& s, bool is_of_angles) {
   if (is_of_angles) {
@@ -123,6 +126,7 @@ std::optional<RationalForm> rational_form(const PointFormulas& point, const Rati
   RationalForm result{{degree, {s.lo}, {}, {}}, curve.speed()};
   NurbsCurveForm& form = result.form;
   const bool is_polynomial = curve.has_one_weight(domain);
+  if (!is_polynomial && curve.is_of_angles() && s.width() > 0.5 * kPi * kMostSpans) return std::nullopt;
   const std::vector<double> ends = is_polynomial ? std::vector<double>{s.lo, s.hi} : span_ends(s, curve.is_of_angles());
   for (size_t k = 0; k + 1 < ends.size(); ++k) {
     std::vector<Vec4> points = curve.points({ends[k], ends[k + 1]}, sign);

@@ -23,7 +23,8 @@ struct RationalForm {
 };
 
 // Over a bounded domain of t. Nothing where the weight is not known to keep its sign, or the form's degree (that of the
-// law, twice as much in cosines) is above kMaxDegree. That the law holds is not checked.
+// law, twice as much in cosines) is above kMaxDegree, or it turns more than a thousand times. That the law holds is not
+// checked.
 std::optional<RationalForm> rational_form(const PointFormulas& point, const RationalLaw& law, const Interval& domain);
 
 }  // namespace lekalo::geometry

@@ -152,8 +152,8 @@ NurbsSurface strip(const NurbsSurface& of, double from, double to, const Interva
 
 BladeWrap blade_wrap(const Fields& f) {
   if (f.has("of")) {
-    if (f.has("sections") || f.has("levels"))
-      throw FieldError("of", "the blade has sections of its own already", "leave one of them out");
+    for (const char* other : {"sections", "pressure", "suction", "leading_edge", "rims", "levels", "at_v"})
+      if (f.has(other)) throw FieldError(other, "the blade has sections of its own already", "leave one of them out");
     return wrap_of(*f.surface("of"));
   }
   const std::vector<BladeSection> sections = blade_sections(f);
@@ -172,7 +172,11 @@ BladeWrap blade_wrap(const Fields& f) {
 
 BladeWrap wrap_of(const Surface& surface) {
   const auto* whole = dynamic_cast<const NurbsSurface*>(&surface);
-  if (!whole || !(whole->domain().u.lo < 0 && whole->domain().u.hi > 0))
+  const auto is_weighted = [&] {
+    const std::vector<Vec4>& points = whole->form().points;
+    return std::any_of(points.begin(), points.end(), [](const Vec4& p) { return p.w != 1; });
+  };
+  if (!whole || !(whole->domain().u.lo < 0 && whole->domain().u.hi > 0) || is_weighted())
     throw FieldError("of", "the surface is no whole blade, with its leading edge at u = 0 within the domain",
                      "a blade_surface with part: whole, not moved; what is made of it can be");
   return {*whole, -whole->domain().u.lo, whole->domain().u.hi};
@@ -198,7 +202,10 @@ NurbsSurface part_of(const Fields& f, const BladeWrap& wrap) {
                      "less than both");
   if (part == "pressure") return pressure_side(wrap, entry);
   if (part == "suction") return suction_side(wrap, entry);
-  if (part == "whole") return wrap.whole;
+  if (part == "whole") {
+    if (entry > 0) throw FieldError("entry", "the whole blade is not parted", "give another part, or leave it out");
+    return wrap.whole;
+  }
   if (entry == 0) throw FieldError("entry", "the size of the entry surface is missing", "its length on each side");
   return strip(wrap.whole, -entry, entry, {-entry, entry});
 }

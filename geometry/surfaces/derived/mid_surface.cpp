@@ -52,8 +52,12 @@ std::any mid_surface(const Fields& f) {
   properties.breaks_v = joined(properties.breaks_v, others.breaks_v, {to.v, from.v});
   properties.max_order = std::min(properties.max_order, others.max_order);
   properties.enclosure_order = std::min(properties.enclosure_order, others.enclosure_order);
-  if (others.periods.u == 0) properties.periods.u = 0;
-  if (others.periods.v == 0) properties.periods.v = 0;
+  // A part of a surface that closes has its period, and does not close.
+  const auto closes = [](const Interval& domain, double period) {
+    return period > 0 && domain.width() >= period * (1 - 1e-12);
+  };
+  if (!closes(from.u, properties.periods.u) || !closes(to.u, others.periods.u)) properties.periods.u = 0;
+  if (!closes(from.v, properties.periods.v) || !closes(to.v, others.periods.v)) properties.periods.v = 0;
   const Between formula{a, b, {from.u, to.u}, {from.v, to.v}, f.number("share")};
   const auto result = std::make_shared<ComposedSurface<Between>>(formula, std::move(properties));
   result->set_reversed(a->reversed());

@@ -68,6 +68,7 @@ TEST(RationalForm, IsNoneWhereTheWeightVanishesOrTheDegreeIsTooHigh) {
   EXPECT_FALSE(rational_form(formulas("t", "1/t"), law("t", 2, 0), {-1, 2}));
   EXPECT_TRUE(rational_form(formulas("t", "1/t"), law("t", 2, 0), {-2, -1}));
   EXPECT_FALSE(rational_form(formulas("cos(13*t)", "sin(t)"), law("1", 13, 1), {0, 1}));
+  EXPECT_FALSE(rational_form(formulas("cos(t)", "sin(t)"), law("1", 1, 1), {0, 1e6}));
 }
 
 // A part of a curve whose form has another parameter begins and ends where the curve does.
