@@ -178,7 +178,7 @@ class ViewDrawing {
     DisplayTransform transform;
     for (const OutputFile& file : model->outputs)
       if (file.kind == "render" && file.path.ends_with(".png"))
-        transform.exposure = file.exposure, transform.curve = file.tone;
+        transform = file.display;
     SheetPicture picture;
     picture.at = view_.at;
     picture.width = view_.width(), picture.height = view_.height();

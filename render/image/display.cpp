@@ -12,6 +12,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace lekalo::render {
 
@@ -24,6 +25,8 @@ double srgb_decode(double encoded) {
 }
 
 namespace {
+
+constexpr double kMostLight = 1e9;
 
 std::uint16_t level_of(double value, int levels) {
   if (std::isnan(value)) return 0;
@@ -92,12 +95,29 @@ class Quantizer {
   const SrgbLevels* srgb_ = nullptr;  // of 8 bits
 };
 
+// What a display is to be sent by the view. Infinite light is the largest, as no transform knows what to do with it.
+std::vector<float> seen(const ColorPlanes& planes, const Image& image, const DisplayTransform& transform, bool alpha) {
+  const double scale = std::exp2(transform.exposure);
+  std::vector<float> rgb(3 * image.pixel_count());
+  for (std::size_t i = 0; i < image.pixel_count(); ++i) {
+    const double opacity = alpha ? planes.alpha[i] : 1;
+    if (!(opacity > 0)) continue;
+    const float radiance[3] = {planes.r[i], planes.g[i], planes.b[i]};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double light = scale * radiance[c] / opacity;
+      rgb[3 * i + c] = std::isnan(light) ? 0 : static_cast<float>(std::clamp(light, -kMostLight, kMostLight));
+    }
+  }
+  apply(*transform.view, image.width, image.height, rgb);
+  return rgb;
+}
+
 }  // namespace
 
 DisplayResult to_display(const Image& image, const DisplayTransform& transform) {
   assert(transform.bits == 8 || transform.bits == 16);
   const ColorPlanes planes = color_planes(image);
-  const bool grey = planes.r.data() == planes.g.data();
+  const bool grey = planes.r.data() == planes.g.data() && !transform.view;
   const bool alpha = transform.alpha && !planes.alpha.empty();
   const int colors = grey ? 1 : 3;
 
@@ -107,12 +127,14 @@ DisplayResult to_display(const Image& image, const DisplayTransform& transform) 
   display.height = image.height;
   display.channels = colors + (alpha ? 1 : 0);
   display.bits = transform.bits;
+  display.is_srgb = !transform.view;
   display.samples.resize(image.pixel_count() * static_cast<std::size_t>(display.channels));
   for (const auto& [name, value] : image.metadata) {
     if (const auto* text = std::get_if<std::string>(&value)) display.text[name] = *text;
   }
 
   const Quantizer quantizer(transform);
+  const std::vector<float> viewed = transform.view ? seen(planes, image, transform, alpha) : std::vector<float>();
   std::atomic<std::size_t> non_finite{0};
   const std::size_t width = static_cast<std::size_t>(image.width);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, static_cast<std::size_t>(image.height)), [&](const auto& rows) {
@@ -122,7 +144,9 @@ DisplayResult to_display(const Image& image, const DisplayTransform& transform) 
       const double opacity = alpha ? planes.alpha[i] : 1;
       if (!std::isfinite(rgb[0] + rgb[1] + rgb[2] + opacity)) ++bad;  // sums of floats are no larger than doubles
       std::uint16_t* out = &display.samples[i * static_cast<std::size_t>(display.channels)];
-      if (!alpha || opacity > 0) {
+      if (!viewed.empty()) {
+        for (size_t c = 0; c < 3; ++c) out[c] = quantizer.level(viewed[3 * i + c]);
+      } else if (!alpha || opacity > 0) {
         const std::array<double, 3> light = quantizer.light_of({rgb[0] / opacity, rgb[1] / opacity, rgb[2] / opacity});
         for (int c = 0; c < colors; ++c) out[c] = quantizer.color_level(light[static_cast<size_t>(c)]);
       } else {

@@ -12,11 +12,12 @@
 
 namespace lekalo::render {
 
-// Pixels as a display shows them: integers in the sRGB encoding (IEC 61966-2-1), alpha not multiplied in.
+// Pixels as a display shows them: integers, usually in the sRGB encoding (IEC 61966-2-1), alpha not multiplied in.
 struct DisplayImage {
   int width = 0, height = 0;
   int channels = 3;                    // 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha
   int bits = 8;                        // 8 or 16
+  bool is_srgb = true;                 // else for a display that the file does not name
   std::vector<std::uint16_t> samples;  // width * height * channels numbers in 0 .. 2^bits - 1, row by row from the top
   std::map<std::string, std::string> text;  // keyword (1 to 79 Latin-1 characters) -> UTF-8 text
 };
@@ -33,7 +34,7 @@ enum class SampleEncoding {
 Image read_png(const std::filesystem::path& path, SampleEncoding encoding = SampleEncoding::linear);
 
 // Writes a file row by row, atomically: it exists only after finish(). Deterministic: the chunks are IHDR, sRGB
-// (perceptual intent), the texts, IDAT, IEND. Throws ImageError.
+// (perceptual intent; only of pictures that are), the texts, IDAT, IEND. Throws ImageError.
 class PngWriter {
  public:
   // `format` gives size, channels, bits and text; its samples are not looked at.

@@ -17,7 +17,7 @@
 #include "geometry/shape.h"
 #include "geometry/surface.h"
 #include "render/camera.h"
-#include "render/image/tone.h"
+#include "render/image/display.h"
 #include "render/integrator.h"
 #include "render/light.h"
 #include "render/material.h"
@@ -88,11 +88,10 @@ struct Film {
 
 struct OutputFile {
   std::string path;
-  std::string kind;     // render, drawing
-  double exposure = 0;  // stops, for png
-  ToneCurve tone = ToneCurve::none;
-  std::string panel;  // of a drawing: only this panel; empty: the page
-  double width = 0;   // of a drawing in millimetres; 0: the page's
+  std::string kind;          // render, drawing
+  DisplayTransform display;  // of a picture in png
+  std::string panel;         // of a drawing: only this panel; empty: the page
+  double width = 0;          // of a drawing in millimetres; 0: the page's
 };
 
 // One view of several on a page.

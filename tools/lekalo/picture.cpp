@@ -188,10 +188,7 @@ void write_picture(const render::OutputFile& file, const render::RenderResult& r
     render::write_exr(file.path, result.image);
     return;
   }
-  render::DisplayTransform transform;
-  transform.exposure = file.exposure;
-  transform.curve = file.tone;
-  const render::DisplayResult shown = render::to_display(result.image, transform);
+  const render::DisplayResult shown = render::to_display(result.image, file.display);
   if (shown.non_finite > 0) fmt::print(stderr, "{}: {} pixels are not finite\n", file.path, shown.non_finite);
   const bool has_bars = result.scale && result.complete && render::has_color_bars(model);
   render::write_png(file.path, has_bars ? render::with_color_bars(shown.image, model, *result.scale) : shown.image);

@@ -50,6 +50,17 @@ ToneCurve tone_curve(const std::string& word) {
   return word == "pbr_neutral" ? ToneCurve::pbr_neutral : ToneCurve::none;
 }
 
+// The view with all its names, or an error at the name that is wrong.
+std::optional<ColorView> color_view(const Fields& given, const Value& value, Diagnostics& diagnostics) {
+  const auto word = [&](const char* field) { return given.has(field) ? given.text(field) : std::string(); };
+  ColorView view{word("config"), word("display"), word("view"), word("space"), word("looks")};
+  const ColorViewFault fault = complete(view);
+  if (fault.member.empty()) return view;
+  const Value* field = value.find(fault.member);
+  diagnostics.error((field ? *field : value).place, fault.message, fault.hint);
+  return std::nullopt;
+}
+
 }  // namespace
 
 void Builder::build_lights(Model& model) {
@@ -245,12 +256,15 @@ std::optional<OutputFile> Builder::build_output(const Value& value, const Counte
     }
     output.kind = fields->text("kind");
   }
-  output.exposure = fields->number("exposure");
-  output.tone = tone_curve(fields->text("tone"));
-  for (const char* field : {"exposure", "tone"})
+  output.display.exposure = fields->number("exposure");
+  output.display.curve = tone_curve(fields->text("tone"));
+  for (const char* field : {"exposure", "tone", "ocio"})
     if (fields->given(field) && !(is_png && output.kind == "render"))
       diagnostics_.error(value.find(field)->place, fmt::format("'{}' is for rendered png files", field),
                          output.kind == "render" ? "exr files hold the light as it is" : "");
+  if (fields->has("ocio")) output.display.view = color_view(fields->group("ocio"), *value.find("ocio"), diagnostics_);
+  if (output.display.view && fields->given("tone"))
+    diagnostics_.error(value.find("tone")->place, "'tone' and 'ocio' are two ways to a display", "keep one of them");
   for (const char* field : {"panel", "width"})
     if (fields->given(field) && output.kind != "drawing")
       diagnostics_.error(value.find(field)->place, fmt::format("'{}' is for drawings", field),

@@ -69,6 +69,19 @@ std::vector<Field> output_fields() {
        "display curve of a png: none cuts off what is brighter than white; pbr_neutral keeps colours up to 0.8 as they "
        "are",
        false, "none"},
+      {"ocio",
+       group({{"config", file(), "file of the configuration, usually config.ocio", true, {}},
+              {"display", text(), "the first of the configuration by default", false, {}},
+              {"view", text(), "the first of the display by default", false, {}},
+              {"space",
+               text(),
+               "the configuration's name of linear light with the primaries of Rec.709, where it has no usual one",
+               false,
+               {}},
+              {"looks", text(), "separated by commas", false, {}}}),
+       "a view of an OpenColorIO configuration in place of `tone`",
+       false,
+       {}},
       {"panel", text(), "only this panel of a drawing", false, {}},
       {"width", page_length().positive().at_most(5000), "of a drawing; the page's by default", false, {}}};
 }

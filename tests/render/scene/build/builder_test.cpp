@@ -265,8 +265,8 @@ TEST(Builder, OutputsAndTheirKinds) {
       "lights: {}\n");
   ASSERT_EQ(m.outputs.size(), 4u);
   EXPECT_EQ(m.outputs[0].kind, "render");
-  EXPECT_EQ(m.outputs[1].exposure, 0.5);
-  EXPECT_EQ(m.outputs[1].tone, ToneCurve::filmic);
+  EXPECT_EQ(m.outputs[1].display.exposure, 0.5);
+  EXPECT_EQ(m.outputs[1].display.curve, ToneCurve::filmic);
   EXPECT_EQ(m.outputs[2].kind, "drawing");
   EXPECT_EQ(m.outputs[3].kind, "drawing");
 }
