@@ -62,6 +62,15 @@ void check_gouging(const Fields& f, const ToolPathFacts::Bend& bend) {
                    "a smaller corner_radius or radius, the other side, or gouging: allow");
 }
 
+void check_joints(const Curve& on, const std::function<CutterPose(double)>& pose, const Cutter& cutter,
+                  CurveProperties& properties) {
+  const auto end = [&](double t) { return pose(t).reference; };
+  const auto top = [&](double t) { return pose(t).reference + cutter.length * pose(t).axis; };
+  check_jumps(on, properties.breaks, end);
+  check_jumps(on, properties.breaks, top);
+  if (properties.period > 0 && !(is_closed_path(on, end) && is_closed_path(on, top))) properties.period = 0;
+}
+
 CoverageBand band_of(const SurfaceContact& contact, const CurvePtr& image, double height) {
   return {image, [contact, height](double t) {
             const ContactBend bend = contact_bend(contact, t);
@@ -76,8 +85,10 @@ ToolMove contact_move(const SurfaceContact& contact, const Curve& on, ToolMove::
     return CutterPose{vec(place.reference), vec(place.axis),
                       CutterPose::Contact{vec(place.contact), vec(place.normal)}};
   };
+  CurveProperties properties = properties_on(contact, on);
+  check_joints(on, pose, contact.cutter, properties);
   using Path = ContactPath<SurfaceContact>;
-  return {kind, std::make_shared<ComposedCurve<Path>>(Path{contact, point}, properties_on(contact, on)), pose};
+  return {kind, std::make_shared<ComposedCurve<Path>>(Path{contact, point}, properties), pose};
 }
 
 }  // namespace lekalo::geometry

@@ -62,9 +62,10 @@ ToolPath flank_path(const Fields& f) {
     return CutterPose{vec(place.reference), vec(place.axis),
                       CutterPose::Contact{vec(place.contact), vec(place.normal)}};
   };
+  CurveProperties properties = properties_along(contact);
+  check_joints(*contact.of, pose, contact.cutter, properties);
   using Path = ContactPath<FlankContact>;
-  const ToolMove move{ToolMove::Kind::cut,
-                      std::make_shared<ComposedCurve<Path>>(Path{contact}, properties_along(contact)), pose};
+  const ToolMove move{ToolMove::Kind::cut, std::make_shared<ComposedCurve<Path>>(Path{contact}, properties), pose};
   return ToolPath(contact.cutter, {move}, std::nullopt, {});
 }
 

@@ -100,4 +100,15 @@ class ToolPath final : public Curve {
   std::vector<double> starts_;  // parameters at which the moves begin
 };
 
+// Throws FieldError (field of) where a place that belongs to the curve's parameter jumps at one of the breaks in
+// smoothness: the tool stands across the curve's direction, which is another one on the other side of a corner.
+void check_jumps(const Curve& curve, const std::vector<double>& breaks, const std::function<Vec3(double)>& place);
+
+// Whether the place at the domain's end is that at its beginning.
+bool is_closed_path(const Curve& curve, const std::function<Vec3(double)>& place);
+
+// The first parameter, among some places, where the path runs against the way along the curve: the curve is hollower
+// than the tool there, and the path has a swallow-tail.
+std::optional<double> where_it_runs_back(const Curve& path, const std::function<Vec3(double)>& way);
+
 }  // namespace lekalo::geometry

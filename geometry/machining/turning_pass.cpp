@@ -19,6 +19,7 @@
 
 #include "geometry/composition.h"
 #include "geometry/describe.h"
+#include "geometry/machining/tool_path.h"
 
 namespace lekalo::geometry {
 
@@ -212,16 +213,11 @@ TurningPlan plan_of_pass(const Fields& f, const CurvePtr& part) {
   return plan;
 }
 
-// The center runs back where the profile is hollower than the edge (its path has a swallow-tail).
-void check_hollows(const Curve& centers, const Curve& profile) {
-  const Interval domain = profile.domain();
-  for (int k = 0; k <= kTried; ++k) {
-    const double t = domain.clamp(domain.lo + domain.width() * k / kTried);
-    const CurveJet at = profile.evaluate(t, 1);
-    if (glm::dot(centers.evaluate(t, 1).d[1], at.d[1]) < 0)
-      throw FieldError("edge", fmt::format("at x = {:.4g} the profile is hollower than the edge", at.d[0].x),
-                       "take a smaller tool");
-  }
+void check_centers(const Curve& centers, const Curve& profile) {
+  check_jumps(profile, properties_of(profile).breaks, [&](double t) { return centers.point(t); });
+  if (const auto t = where_it_runs_back(centers, [&](double s) { return profile.evaluate(s, 1).d[1]; }))
+    throw FieldError("edge", fmt::format("at x = {:.4g} the profile is hollower than the edge", profile.point(*t).x),
+                     "take a smaller tool");
 }
 
 CurvePtr path_of(const TurningPlan& plan, const Fields& f) {
@@ -231,7 +227,7 @@ CurvePtr path_of(const TurningPlan& plan, const Fields& f) {
   const double side = plan.profile->point(domain.hi).x > plan.profile->point(domain.lo).x ? 1 : -1;
   const CurvePtr centers = std::make_shared<ComposedCurve<OnEllipse>>(OnEllipse{plan.profile, edge[0], edge[1], side},
                                                                       properties_of(*plan.profile, 1));
-  check_hollows(*centers, *plan.profile);
+  check_centers(*centers, *plan.profile);
   return centers;
 }
 

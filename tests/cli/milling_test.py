@@ -89,6 +89,28 @@ class Milling(ProgramTest):
         _, errors = self.run_program("export", "scene.yaml", "contour", "--format", "cldata", code=USAGE)
         self.assertIn("'contour' is no path of a cutter", errors)
 
+    def refuse(self, message, *geometry):
+        self.write("refused.yaml", "lekalo: 1\ngeometry:\n" + "".join(f"  {line}\n" for line in geometry))
+        _, errors = self.run_program("check", "refused.yaml", code=SCENE_ERROR)
+        self.assertIn(message, errors)
+
+    def accept(self, *geometry):
+        self.write("accepted.yaml", "lekalo: 1\ngeometry:\n" + "".join(f"  {line}\n" for line in geometry))
+        self.run_program("check", "accepted.yaml")
+
+    def test_corners(self):
+        table, bent = "table: { type: plane, size: [4, 4] }", "{ type: polyline, points: [[0, 0], [1, 0], [1, 1]] }"
+        contour = "path: {{ type: flank_path, of: {{ type: rectangle, size: [8, 5]{} }}, side: {}, cutter: {{ radius: 1, length: 4 }}, h: 0 }}"
+        path = "path: {{ type: cutter_path, of: table, image: {}, {}cutter: {{ radius: 1, corner_radius: 0.3, length: 4 }} }}"
+        message = "the path jumps at the corner at t = 1"
+        self.refuse(message, contour.format("", "right"))
+        self.refuse(message, contour.format("", "left"))
+        self.refuse(message, table, path.format(bent, "lead: 20 deg, "))
+        self.refuse(message, table, path.format(bent, "point: contact, lead: 20 deg, "))
+        self.accept(contour.format("", "on"))
+        self.accept(contour.format(", corner_radius: 0.5", "right"))
+        self.accept(table, path.format(bent, "axis: [0.1, 0, 1], "))
+
 
 if __name__ == "__main__":
     unittest.main()
