@@ -1,5 +1,7 @@
 // The path of a cutter whose flank touches a curve along its generatrix (Zavyalov, Leus, Skorospelov 1985, V.1), as in
 // milling round a contour. The formulas are in geometry/machining/cutter_place.h.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "geometry/machining/contact_fields.h"
@@ -52,6 +54,32 @@ CurveProperties properties_along(const FlankContact& contact) {
   return properties;
 }
 
+// The middle of the circle that fits the flank across the generatrix where it touches.
+struct MiddleOfFlank {
+  FlankContact contact;
+
+  template <class T>
+  Triple<T> operator()(const T& t) const {
+    const CutterPlace<T> place = contact.at(t);
+    if (contact.side == 0) return place.contact;
+    const Cutter& cutter = contact.cutter;
+    const T h = contact.height_at(t, place.contact, place.normal, contact.generatrix(t));
+    const T radius = T(1 / std::cos(cutter.angle)) * (T(cutter.flank_radius()) + T(std::sin(cutter.angle)) * h);
+    return place.contact + (T(contact.allowance) + radius) * place.normal;
+  }
+};
+
+void check_hollows(const FlankContact& contact) {
+  const ComposedCurve<MiddleOfFlank> middle({contact}, properties_along(contact));
+  const auto way = [&](double t) {
+    const Vec3 l = vec(contact.generatrix(t)), along = contact.of->evaluate(t, 1).d[1];
+    return along - glm::dot(along, l) * l;
+  };
+  if (const auto t = where_it_runs_back(middle, way))
+    throw FieldError("cutter", fmt::format("at t = {:.6g} the curve is hollower than the cutter", *t),
+                     "a smaller radius, or the other side");
+}
+
 ToolPath flank_path(const Fields& f) {
   const FlankContact contact = read_flank(f);
   const Interval range = contact.of->domain();
@@ -64,6 +92,7 @@ ToolPath flank_path(const Fields& f) {
   };
   CurveProperties properties = properties_along(contact);
   check_joints(*contact.of, pose, contact.cutter, properties);
+  check_hollows(contact);
   using Path = ContactPath<FlankContact>;
   const ToolMove move{ToolMove::Kind::cut, std::make_shared<ComposedCurve<Path>>(Path{contact}, properties), pose};
   return ToolPath(contact.cutter, {move}, std::nullopt, {});

@@ -111,6 +111,16 @@ class Milling(ProgramTest):
         self.accept(contour.format(", corner_radius: 0.5", "right"))
         self.accept(table, path.format(bent, "axis: [0.1, 0, 1], "))
 
+    def test_hollows(self):
+        contour = "path: {{ type: flank_path, of: {{ type: ellipse, semi_axes: [3, 1] }}, side: {}, cutter: {{ radius: {}, length: 4, angle: {} }}, h: {} }}"
+        # The least radius of curvature is 1/3; that of the cone at h is (radius + h sin(angle)) / cos(angle).
+        message = "at t = 0 the curve is hollower than the cutter"
+        self.refuse(message, contour.format("left", 1, 0, 0))
+        self.refuse(message, contour.format("left", 0.1, 10, 2))
+        self.accept(contour.format("left", 0.1, 10, 1))
+        self.accept(contour.format("left", 0.333, 0, 0))
+        self.accept(contour.format("right", 1, 0, 0))
+
 
 if __name__ == "__main__":
     unittest.main()
