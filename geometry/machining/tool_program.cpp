@@ -29,6 +29,8 @@ class Program {
   void follow(const ToolPath& path, std::optional<double> feed, const std::string& field) {
     if (path.cutter() != cutter_) throw FieldError(field, "the path is one of another cutter", "the same cutter");
     const Vec3 begin = path.point(path.domain().lo);
+    if (!(glm::length(path.pose(path.domain().lo).reference - begin) <= kMeet * cutter_.radius))
+      throw FieldError(field, "the path is not that of the middle of the cutter's end", "point: reference");
     const double gap = glm::length(begin - at_.reference);
     if (!(gap <= kMeet * cutter_.radius))
       throw FieldError(

@@ -98,6 +98,14 @@ class Milling(ProgramTest):
         self.write("accepted.yaml", "lekalo: 1\ngeometry:\n" + "".join(f"  {line}\n" for line in geometry))
         self.run_program("check", "accepted.yaml")
 
+    def test_program_of_another_point(self):
+        cutter = "cutter: { radius: 1, corner_radius: 1, length: 3 }"
+        path = "path: { type: cutter_path, of: { type: plane, size: [4, 4] }, v: 0, point: %%s, allowance: 0.1, %s }" % cutter
+        program = "program: { type: tool_program, start: { of: path, t: -2 }, moves: [{ path: path }], %s }" % cutter
+        for point in ("center", "contact"):
+            self.refuse("not that of the middle of the cutter's end", path % point, program)
+        self.accept(path % "reference", program)
+
     def test_corners(self):
         table, bent = "table: { type: plane, size: [4, 4] }", "{ type: polyline, points: [[0, 0], [1, 0], [1, 1]] }"
         contour = "path: {{ type: flank_path, of: {{ type: rectangle, size: [8, 5]{} }}, side: {}, cutter: {{ radius: 1, length: 4 }}, h: 0 }}"
