@@ -164,21 +164,32 @@ Vec3 way_of(const PathRow& row) {
   return {way.x, way.y, way.z};
 }
 
+// The nearest places of rows before and after that of a row: several rows may lie at one place. Rows are in order.
+std::vector<double> places_beside(const std::vector<PathRow>& rows, double place) {
+  const auto lies_before = [](const PathRow& row, double at) { return row.at < at; };
+  const auto lies_after = [](double at, const PathRow& row) { return at < row.at; };
+  const auto first = std::lower_bound(rows.begin(), rows.end(), place, lies_before);
+  const auto next = std::upper_bound(rows.begin(), rows.end(), place, lies_after);
+  std::vector<double> places;
+  if (first != rows.begin()) places.push_back((first - 1)->at);
+  if (next != rows.end()) places.push_back(next->at);
+  return places;
+}
+
 ToolPathFacts facts_of(const RowFamily& family, const std::vector<PathRow>& rows) {
   ToolPathFacts facts;
   facts.rows = static_cast<int>(rows.size());
   facts.part = rows.front().contact.line.of;
   facts.bend = {kInfinity, 0, 0};
   double greatest = 0;
-  for (size_t i = 0; i < rows.size(); ++i) {
-    const StripReport report = strip_report(rows[i].contact, rows[i].contact.line.image->domain(), 0);
+  for (const PathRow& row : rows) {
+    const StripReport report = strip_report(row.contact, row.contact.line.image->domain(), 0);
     if (report.least_difference < facts.bend->least_difference)
       facts.bend = {report.least_difference, report.u, report.v};
-    for (const size_t other : {i - 1, i + 1})
-      if (other < rows.size())
-        greatest = std::max(greatest, family.scallop(rows[i], std::abs(rows[i].at - rows[other].at)));
+    for (const double other : places_beside(rows, row.at))
+      greatest = std::max(greatest, family.scallop(row, std::abs(row.at - other)));
   }
-  if (std::isfinite(greatest) && rows.size() > 1) facts.scallop_height = greatest;
+  if (std::isfinite(greatest) && rows.front().at < rows.back().at) facts.scallop_height = greatest;
   return facts;
 }
 
