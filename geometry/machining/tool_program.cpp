@@ -71,6 +71,8 @@ ToolPath tool_program(const Fields& f) {
       continue;
     }
     const auto* path = dynamic_cast<const ToolPath*>(move.curve("path").get());
+    if (kind == ToolMove::Kind::rapid)
+      throw FieldError(field, "a path says itself which of its moves are in the air", "leave out 'rapid'");
     if (!path) throw FieldError(field, "the curve is no path of a cutter, or one that was moved", "a tool_path");
     program.follow(*path, feed, field);
   }

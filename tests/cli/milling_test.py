@@ -82,6 +82,9 @@ class Milling(ProgramTest):
     def test_what_is_refused(self):
         _, errors = self.run_program("check", "scene.yaml", "--set", "r=1.5", code=SCENE_ERROR)
         self.assertIn("the path is one of another cutter", errors)
+        self.write("rapid.yaml", SCENE.replace("{ path: around,", "{ path: around, rapid: true,"))
+        _, errors = self.run_program("check", "rapid.yaml", code=SCENE_ERROR)
+        self.assertIn("leave out 'rapid'", errors)
         self.write("gap.yaml", SCENE.replace("{ to: start, feed: 100 }, ", ""))
         _, errors = self.run_program("check", "gap.yaml", code=SCENE_ERROR)
         self.assertIn("from the end of the move before", errors)
