@@ -47,7 +47,7 @@ RoutePlan route_of(const PocketPlan& plan) {
   if (route.graph.edges.empty()) return route;
   route.postman = postman_route(route.graph);
   route.reduced = reduced(route.graph);
-  route.walk = shortened_walk(route.graph, route.postman);
+  route.walk = shortened_walk(route.graph, *route.postman);
   route.start = route.walk.front().from;
   return route;
 }

@@ -95,14 +95,27 @@ RouteGraph graph_of(const Fields& f) {
 
 Walk shortest_walk(const RouteGraph& graph, int from, int to) {
   if (from == to) throw FieldError("to", "the way ends where it begins", "name two vertices: 'start' and 'to'");
+  const ShortestPaths paths = shortest_paths(graph, from);
+  if (!(paths.distance[static_cast<size_t>(to)] < kInfinity))
+    throw FieldError("to", fmt::format("there is no way from vertex {} to vertex {}", from, to),
+                     "edges that join the parts of the graph");
   Walk walk;
   int here = from;
-  for (const int e : edges_to(graph, shortest_paths(graph, from), to)) {
+  for (const int e : edges_to(graph, paths, to)) {
     const int next = graph.edges[static_cast<size_t>(e)].from(here);
     walk.push_back({e, here, next});
     here = next;
   }
   return walk;
+}
+
+PostmanRoute postman_of(const RoutePlan& plan, const Fields& f) {
+  try {
+    return postman_route(plan.graph, plan.start);
+  } catch (const std::invalid_argument& error) {
+    throw FieldError(f.has("edges") ? "edges" : "matrix", error.what(),
+                     "all vertices are joined by edges, and few have an odd number of them");
+  }
 }
 
 Walk walk_of(const RoutePlan& plan, const Fields& f) {
@@ -111,8 +124,8 @@ Walk walk_of(const RoutePlan& plan, const Fields& f) {
     throw FieldError("to", route == "shortest" ? "the shortest way leads to a vertex" : "this way has no given end",
                      route == "shortest" ? "say 'to'" : "route: shortest");
   if (route == "shortest") return shortest_walk(plan.graph, plan.start, vertex(f, "to", plan.graph.size()));
-  if (route == "visit") return shortened_walk(plan.graph, plan.postman, f.has("start") ? plan.start : -1);
-  return plan.postman.cycle;
+  if (route == "visit") return shortened_walk(plan.graph, *plan.postman, f.has("start") ? plan.start : -1);
+  return plan.postman->cycle;
 }
 
 }  // namespace
@@ -141,12 +154,7 @@ TypeDeclaration route_graph_type() {
         RoutePlan plan;
         plan.graph = graph_of(f);
         if (f.has("start")) plan.start = vertex(f, "start", plan.graph.size());
-        try {
-          plan.postman = postman_route(plan.graph, plan.start);
-        } catch (const std::invalid_argument& error) {
-          throw FieldError(f.has("edges") ? "edges" : "matrix", error.what(),
-                           "all vertices are joined by edges, and few have an odd number of them");
-        }
+        if (f.text("route") != "shortest") plan.postman = postman_of(plan, f);
         plan.reduced = reduced(plan.graph);
         plan.walk = walk_of(plan, f);
         try {

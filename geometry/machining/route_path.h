@@ -1,16 +1,18 @@
 // A path together with what it was planned from, which helpers draw and measures tell.
 #pragma once
 
+#include <optional>
+
 #include "geometry/machining/route_postman.h"
 #include "geometry/transformed.h"
 
 namespace lekalo::geometry {
 
-// A graph, the closed way through all its edges, and the way that is taken.
+// A graph, the closed way through all its edges where it was needed, and the way that is taken.
 struct RoutePlan {
   RouteGraph graph;
   ReducedGraph reduced;
-  PostmanRoute postman;
+  std::optional<PostmanRoute> postman;
   Walk walk;
   int start = 0;  // of the walk, where it has no step
 };

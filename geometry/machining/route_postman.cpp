@@ -53,14 +53,14 @@ void name_originals(Walk& walk, const RouteGraph& graph, const std::vector<int>&
       step.edge = again[static_cast<size_t>(step.edge) - graph.edges.size()];
 }
 
-Grid<double> distances_between(const RouteGraph& graph, const std::vector<int>& vertices) {
+// `paths` begin at the vertices, one after another.
+Grid<double> distances_between(const std::vector<int>& vertices, const std::vector<ShortestPaths>& paths) {
   const int n = static_cast<int>(vertices.size());
   Grid<double> result{n, n, std::vector<double>(vertices.size() * vertices.size(), 0.0)};
-  for (int i = 0; i < n; ++i) {
-    const ShortestPaths paths = shortest_paths(graph, vertices[static_cast<size_t>(i)]);
+  for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j)
-      result.at(i, j) = result.at(j, i) = paths.distance[static_cast<size_t>(vertices[static_cast<size_t>(j)])];
-  }
+      result.at(i, j) = result.at(j, i) =
+          paths[static_cast<size_t>(i)].distance[static_cast<size_t>(vertices[static_cast<size_t>(j)])];
   return result;
 }
 
@@ -150,7 +150,9 @@ PostmanRoute postman_route(const RouteGraph& graph, int start) {
   if (static_cast<int>(route.odd.size()) > kMaxExchangeMatching)
     throw std::invalid_argument(std::to_string(route.odd.size()) + " vertices have an odd number of edges, more than " +
                                 std::to_string(kMaxExchangeMatching) + " take too long");
-  route.distances = distances_between(graph, route.odd);
+  std::vector<ShortestPaths> paths;
+  for (const int v : route.odd) paths.push_back(shortest_paths(graph, v));
+  route.distances = distances_between(route.odd, paths);
   const Pairs pairs = route.exact ? minimum_matching(route.distances) : matching_by_exchange(route.distances);
   route.matching_weight = weight(pairs, route.distances);
   // An edge that two of the ways share would be walked three times: walked once, the parity is the same.
@@ -158,7 +160,7 @@ PostmanRoute postman_route(const RouteGraph& graph, int start) {
   for (const auto& [i, j] : pairs) {
     const int a = route.odd[static_cast<size_t>(i)], b = route.odd[static_cast<size_t>(j)];
     route.matching.push_back({a, b});
-    for (const int e : edges_to(graph, shortest_paths(graph, a), b))
+    for (const int e : edges_to(graph, paths[static_cast<size_t>(i)], b))
       if (!again.insert(e).second) again.erase(e);
   }
   route.again.assign(again.begin(), again.end());

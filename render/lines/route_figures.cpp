@@ -104,8 +104,9 @@ RouteFigure reduced_graph(const RoutePlan& plan, const Fields& f) {
 
 RouteFigure added_edges(const RoutePlan& plan, const Fields& f) {
   RouteFigure figure;
+  if (!plan.postman) return figure;
   const double distance = f.has("distance") ? f.number("distance") : 0.03 * size_of(plan.graph);
-  for (const int e : plan.postman.again) {
+  for (const int e : plan.postman->again) {
     const RouteEdge& edge = plan.graph.edges[static_cast<size_t>(e)];
     add_line(figure, beside(points_of(edge, plan.graph, edge.a), distance));
   }
@@ -114,7 +115,8 @@ RouteFigure added_edges(const RoutePlan& plan, const Fields& f) {
 
 RouteFigure matching(const RoutePlan& plan, const Fields&) {
   RouteFigure figure;
-  for (const auto& [a, b] : plan.postman.matching) {
+  if (!plan.postman) return figure;
+  for (const auto& [a, b] : plan.postman->matching) {
     figure.points.push_back(plan.graph.places[static_cast<size_t>(a)]);
     figure.points.push_back(plan.graph.places[static_cast<size_t>(b)]);
     add_line(figure, {figure.points[figure.points.size() - 2], figure.points.back()});

@@ -36,29 +36,34 @@ ordered_json edges_of(const geometry::ReducedGraph& reduced) {
   return edges;
 }
 
-ordered_json json_of(const RoutePlan& plan) {
+void add_postman(ordered_json& out, const geometry::PostmanRoute& postman) {
   ordered_json matching = ordered_json::array();
-  for (const auto& [a, b] : plan.postman.matching) matching.push_back({a, b});
+  for (const auto& [a, b] : postman.matching) matching.push_back({a, b});
+  out["odd"] = postman.odd;
+  out["distances"] = rows_of(postman.distances);
+  out["matchings"] = geometry::matching_count(static_cast<int>(postman.odd.size()));
+  out["matching"] = matching;
+  out["matching_weight"] = postman.matching_weight;
+  out["method"] = postman.exact ? "least of all matchings" : "exchanges of three pairs";
+  out["postman_weight"] = postman.weight;
+}
+
+ordered_json json_of(const RoutePlan& plan) {
   const std::vector<int> walk = geometry::vertices_of(plan.walk, plan.start);
   const double length = geometry::weight(plan.walk, plan.graph),
                repeated = geometry::repeated_weight(plan.walk, plan.graph);
-  return {{"vertices", plan.graph.size()},
-          {"edges", plan.graph.edges.size()},
-          {"weight_of_edges", plan.graph.weight()},
-          {"reduced_vertices", plan.reduced.vertex},
-          {"reduced_edges", edges_of(plan.reduced)},
-          {"odd", plan.postman.odd},
-          {"distances", rows_of(plan.postman.distances)},
-          {"matchings", geometry::matching_count(static_cast<int>(plan.postman.odd.size()))},
-          {"matching", matching},
-          {"matching_weight", plan.postman.matching_weight},
-          {"method", plan.postman.exact ? "least of all matchings" : "exchanges of three pairs"},
-          {"postman_weight", plan.postman.weight},
-          {"walk", walk},
-          {"steps", walk.size()},
-          {"ratio", static_cast<double>(walk.size()) / static_cast<double>(plan.graph.size())},
-          {"walk_weight", length},
-          {"repeated_share", length > 0 ? repeated / length : 0.0}};
+  ordered_json out = {{"vertices", plan.graph.size()},
+                      {"edges", plan.graph.edges.size()},
+                      {"weight_of_edges", plan.graph.weight()},
+                      {"reduced_vertices", plan.reduced.vertex},
+                      {"reduced_edges", edges_of(plan.reduced)}};
+  if (plan.postman) add_postman(out, *plan.postman);
+  out["walk"] = walk;
+  out["steps"] = walk.size();
+  out["ratio"] = static_cast<double>(walk.size()) / static_cast<double>(plan.graph.size());
+  out["walk_weight"] = length;
+  out["repeated_share"] = length > 0 ? repeated / length : 0.0;
+  return out;
 }
 
 ordered_json json_of(const PocketPlan& plan) {
