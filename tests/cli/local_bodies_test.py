@@ -102,6 +102,17 @@ class LocalBodies(ProgramTest):
             self.assert_near(self.volume("type: deleted_faces, of: rounded, faces: fillets, chain: true", more),
                              self.volume(f"like: {of}", BLOCK + leant), 1e-10)
 
+    def test_grooves_along_walls(self):
+        groove = (BLOCK + "  h: { type: difference, of: block, minus: [{ type: cylinder_body, radius: 0.2, height: 3, "
+                  "frame: { origin: [2, 0, -0.5] } }] }\n")
+        def segment(r, d):  # of a circle, beyond a line at the distance d
+            return r * r * math.acos(d / r) - d * math.sqrt(r * r - d * d)
+        for body, radius, whole, height in (("type: offset_body, of: h, distance: 0.05", 0.15, 4.1 * 4.1 * 2.1, 2.1),
+                                            ("type: moved_faces, of: h, faces: y_min, distance: 0.05", 0.2, 4 * 4.05 * 2, 2)):
+            expected = whole - height * segment(radius, -0.05)
+            self.assert_near(self.volume(body, groove), expected, 1e-9)
+        self.refused("type: offset_body, of: h, distance: 0.15", "do not come together in a corner any more", more=groove)
+
     def test_what_does_not_follow(self):
         more = BLOCK + "  rounded: { type: fillet_body, of: block, fillets: { edges: { of_face: z_max }, radius: 0.3 } }\n"
         self.refused("type: moved_faces, of: rounded, faces: block.x_max, distance: 0.1", "meets others in a corner, which does not follow", more=more)

@@ -34,6 +34,9 @@ bool is_straight(const Curve& curve, double size) {
   return glm::length(b - a) > kSame * size;
 }
 
+// A range that need not be continued: it goes round.
+bool is_whole(const Interval& own, double period) { return period > 0 && own.width() >= period * (1 - 1e-12); }
+
 // Rounding taken off the ends of a line: borders of the domain are met, and lines along a parameter hold the other.
 void snap(Vec2& a, Vec2& b, const Rectangle& domain) {
   for (int k = 0; k < 2; ++k) {
@@ -158,7 +161,7 @@ SurfacePtr wide_enough(const EdgeSide& side, const Vec3& from, const Vec3& to) {
   const Vec2 a = near_foot(*side.surface, from, side.near[0]).place,
              b = near_foot(*side.surface, to, side.near[1]).place;
   const auto widened = [](const Interval& own, double x, double y, double period) {
-    if (period > 0 && own.width() >= period * (1 - 1e-12)) return own;
+    if (is_whole(own, period)) return own;
     const double lo = std::min({own.lo, x, y}), hi = std::max({own.hi, x, y}), more = 0.02 * (hi - lo);
     return Interval(lo < own.lo ? lo - more : lo, hi > own.hi ? hi + more : hi);
   };
@@ -195,7 +198,10 @@ std::optional<EdgeCurve> searched_edge(const std::array<EdgeSide, 2>& sides, con
       EdgeCurve edge;
       try {
         edge.curve = trimmed_curve(branch.curve, *s, *t, backward);
-        for (int k = 0; k < 2; ++k) edge.images[k] = trimmed_curve(branch.images[k], *s, *t, backward);
+        // A section by a plane has an image in the other surface only.
+        for (int k = 0; k < 2; ++k)
+          edge.images[k] = sides[k].plane ? image_in(*sides[k].plane, edge.curve)
+                                          : trimmed_curve(branch.images[sides[1 - k].plane ? 0 : k], *s, *t, backward);
       } catch (const FieldError&) {
         continue;  // an image that is not closed, of a closed curve
       }
@@ -246,8 +252,11 @@ std::optional<EdgeCurve> parameter_edge(const std::array<EdgeSide, 2>& sides, co
   const Rectangle d = side.surface->domain();
   snap(a, b, d);
   if (a == b) return std::nullopt;
-  const Rectangle wide{{std::min({d.u.lo, a.x, b.x}), std::max({d.u.hi, a.x, b.x})},
-                       {std::min({d.v.lo, a.y, b.y}), std::max({d.v.hi, a.y, b.y})}};
+  const auto widened = [](const Interval& own, double x, double y, double period) {
+    return is_whole(own, period) ? own : Interval(std::min({own.lo, x, y}), std::max({own.hi, x, y}));
+  };
+  const Periods periods = side.surface->periods();
+  const Rectangle wide{widened(d.u, a.x, b.x, periods.u), widened(d.v, a.y, b.y, periods.v)};
   LineOnSurface line;
   try {
     const bool inside = wide.u == d.u && wide.v == d.v;

@@ -332,7 +332,10 @@ class Replacing {
       if (own.lo <= lo && hi <= own.hi) return own;
       if (period > 0 && hi - lo >= period * (1 - 1e-9)) return Interval(lo, lo + period);
       const double more = 0.02 * (hi - lo);
-      return Interval(lo < own.lo ? lo - more : own.lo, hi > own.hi ? hi + more : own.hi);
+      const Interval wide(lo < own.lo ? lo - more : own.lo, hi > own.hi ? hi + more : own.hi);
+      // What goes over the end of a whole turn needs another one.
+      if (period > 0 && wide.width() > period) return Interval(0.5 * (lo + hi - period), 0.5 * (lo + hi + period));
+      return wide;
     };
     return {along(d.u, box.lo.x, box.hi.x, periods.u), along(d.v, box.lo.y, box.hi.y, periods.v)};
   }
