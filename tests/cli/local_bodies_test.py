@@ -113,6 +113,16 @@ class LocalBodies(ProgramTest):
             self.assert_near(self.volume(body, groove), expected, 1e-9)
         self.refused("type: offset_body, of: h, distance: 0.15", "do not come together in a corner any more", more=groove)
 
+    def test_fillets_along_fillets(self):
+        rounded = ("  base: { type: fillet_body, of: { type: extrusion_body, along: [0, 0, 2], of: { type: rectangle, size: [4, 4], "
+                   "corner_radius: 0.8 } }, fillets: { edges: { of_face: end }, radius: 0.3 } }\n")
+        whole = "type: deleted_faces, of: base, chain: true, faces: [fillets, side.1, side.3, side.5, side.7]"
+        self.assert_near(self.volume(whole, rounded), 32, 1e-9)
+        # What a round edge of the length 1 leaves off, and a ball in a corner.
+        edge, ball = 0.04 * (1 - math.pi / 4), 0.008 * (1 - math.pi / 6)
+        self.assert_near(self.volume("type: refilleted_body, of: base, radius: 0.2", rounded), 32 - 4 * (3.6 + 1.8) * edge - 4 * ball, 1e-8)
+        self.assert_near(self.volume("type: offset_body, of: base, distance: -0.9", rounded), 2.2 * 2.2 * 0.2, 1e-9)
+
     def test_what_does_not_follow(self):
         more = BLOCK + "  rounded: { type: fillet_body, of: block, fillets: { edges: { of_face: z_max }, radius: 0.3 } }\n"
         self.refused("type: moved_faces, of: rounded, faces: block.x_max, distance: 0.1", "meets others in a corner, which does not follow", more=more)

@@ -107,7 +107,9 @@ Body made_again(const Body& body, const std::vector<FilletChain>& chains, double
     request.goes_on = false;
     request.rule.sizes = {ScalarLaw(radius), ScalarLaw(radius)};
     request.rule.role = role_of(body, chains[k], k), request.rule.field = "radius";
+    // A fillet along another goes round its corner.
     is_round |= !chains[k].corners.empty();
+    for (const FilletChain& other : chains) is_round |= &other != &chains[k] && is_along(chains[k], other);
     for (const auto& between : chains[k].between)
       for (const int edge : new_edges(body, healed, between)) {
         if (std::find(taken.begin(), taken.end(), edge) != taken.end()) continue;

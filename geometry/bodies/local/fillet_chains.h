@@ -19,6 +19,9 @@ struct FilletChain {
   std::vector<std::array<int, 2>> between;  // the faces beside each band
 };
 
+// Whether one of the bands of `outer` lies along a band of `inner`, as a rim does along a rounded corner.
+bool is_along(const FilletChain& outer, const FilletChain& inner);
+
 // In the order of their first faces.
 std::vector<FilletChain> fillet_chains(const Body& body);
 

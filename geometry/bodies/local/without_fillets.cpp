@@ -2,6 +2,7 @@
 // borders a band or a corner becomes a vertex. Then everything beside them is found anew, as where faces are replaced.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 
@@ -146,14 +147,51 @@ class Shrinking {
   Body made_;
 };
 
+// Fillets along fillets go first, so that these border on faces that stay; all at once where they go round in a circle.
+std::vector<std::vector<FilletChain>> outer_and_others(const std::vector<FilletChain>& chains) {
+  std::vector<std::vector<FilletChain>> parts(2);
+  for (const FilletChain& chain : chains) {
+    const bool has_outer = std::any_of(chains.begin(), chains.end(), [&](const FilletChain& other) {
+      return &other != &chain && is_along(other, chain);
+    });
+    parts[has_outer ? 1 : 0].push_back(chain);
+  }
+  if (parts[0].empty()) std::swap(parts[0], parts[1]);
+  return parts;
+}
+
+// By the numbers in a body that has these faces of the old one.
+std::vector<FilletChain> renumbered(std::vector<FilletChain> chains, const std::vector<int>& kept) {
+  const auto renumber = [&](int& f) { f = static_cast<int>(std::find(kept.begin(), kept.end(), f) - kept.begin()); };
+  for (FilletChain& chain : chains) {
+    for (int& f : chain.faces) renumber(f);
+    for (int& f : chain.corners) renumber(f);
+    for (auto& pair : chain.between)
+      for (int& f : pair) renumber(f);
+  }
+  return chains;
+}
+
 }  // namespace
 
+bool is_along(const FilletChain& outer, const FilletChain& inner) {
+  const auto is_inner = [&](int f) {
+    return std::find(inner.faces.begin(), inner.faces.end(), f) != inner.faces.end();
+  };
+  return std::any_of(outer.between.begin(), outer.between.end(),
+                     [&](const std::array<int, 2>& pair) { return is_inner(pair[0]) || is_inner(pair[1]); });
+}
+
 FaceReplacement without_fillets(const Body& body, const std::vector<FilletChain>& chains, const char* field) {
-  FaceReplacement made = Shrinking(body, chains, field).build();
+  const std::vector<std::vector<FilletChain>> parts = outer_and_others(chains);
+  FaceReplacement made = Shrinking(body, parts[0], field).build();
   // Edges that were shorter may run the other way.
   made.turned_edges.clear();
   check_replacement(made, field, "the faces beside the fillets are continued until they meet");
-  return made;
+  if (parts[1].empty()) return made;
+  FaceReplacement rest = without_fillets(made.body, renumbered(parts[1], made.faces), field);
+  for (int& f : rest.faces) f = made.faces[f];
+  return rest;
 }
 
 }  // namespace lekalo::geometry
