@@ -48,6 +48,13 @@ class Subdivision(ProgramTest):
             self.assertEqual((len(found["faces"]), len(found["edges"]), found["valid"]), (faces, edges, True))
         self.assert_near(self.json_of("measure", "scene.yaml", "sheet")["area"], 2, 1e-12)
 
+    def test_loop_closes(self):
+        tetrahedron = "scheme: loop, points: [[0, 0, 0], [2, 0, 0], [0, 2, 0], [0, 0, 2]], faces: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]"
+        for levels, code in (12, 0), (20, SCENE_ERROR):
+            self.write("loop.yaml", f"lekalo: 1\ngeometry: {{ s: {{ type: subdivision_surface, {tetrahedron}, levels: {levels} }} }}\n")
+            output, errors = self.run_program("measure", "loop.yaml", "s", code=code)
+            self.assertIn("too small to sew" if code else "volume", errors or output)
+
     def test_errors(self):
         for fields, message in [
             ("points: [[0, 0], [1, 0], [1, 1], [0, 1]], faces: [[0, 1, 2, 4]]", "face 0 names point 4; there are points 0 to 3"),

@@ -17,7 +17,7 @@ namespace lekalo::geometry {
 
 namespace {
 
-// What is left of a triangle must not be as small as what sewing takes for one place.
+// What is left of a triangle is a millionth of its sides then; before that sewing may take it for one place.
 constexpr int kMaxLoopLevels = 20;
 
 // Patches that fill the unit square, each over its own rectangle.
@@ -157,11 +157,24 @@ std::vector<SurfacePtr> loop_faces(const PolygonMesh& mesh, int levels) {
   return loop_surface(ConnectedMesh(mesh), levels);
 }
 
+// Whether every edge has two faces.
+bool is_closed(const ConnectedMesh& mesh) {
+  for (int f = 0; f < static_cast<int>(mesh.mesh().faces.size()); ++f)
+    for (int k = 0; k < static_cast<int>(mesh.face(f).size()); ++k)
+      if (mesh.across(f, k).face < 0) return false;
+  return true;
+}
+
 BodyPtr build(const Fields& f) {
   const PolygonMesh mesh = control_mesh(f);
   const bool by_loop = f.text("scheme") == "loop";
   const int levels = f.integer("levels");
-  return std::make_shared<Body>(sew(by_loop ? loop_faces(mesh, levels) : catmull_clark_faces(mesh, levels)));
+  Body body = sew(by_loop ? loop_faces(mesh, levels) : catmull_clark_faces(mesh, levels));
+  if (!body.is_closed() && is_closed(ConnectedMesh(mesh)))
+    throw FieldError("levels",
+                     fmt::format("with {} steps what is left of the faces at the corners is too small to sew", levels),
+                     "fewer levels");
+  return std::make_shared<Body>(std::move(body));
 }
 
 }  // namespace
@@ -184,7 +197,7 @@ TypeDeclaration subdivision_surface_type() {
                 "numbers of points that stay where they are; ends of three creases and corners of a border do")
       .field("levels", integer().between(1, 30),
              "steps towards a corner with another number of faces: what is left of a face there is 2^-levels of its "
-             "sides; 20 at most for loop",
+             "sides; for loop 20 at most, and no more than lets the faces be sewn",
              "10")
       .example(
           "points: [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1, 1, 2]], faces: [[3, 2, 1, 0], [0, 1, 4], [1, 2, "
