@@ -109,6 +109,15 @@ geometry:
         axes = [[abs(x) for x in axis] for axis in measured["principal_axes"]]
         self.assert_near(axes, [[0, 0, 1], [0, 1, 0], [1, 0, 0]], 1e-12)
 
+    def test_smallest_blank_lies_along_a_side(self):
+        corners = [[1.4, 2.53], [2.86, 2.41], [1.15, 0.21]]
+        self.write("prism.yaml", f"lekalo: 1\ngeometry: {{ prism: {{ type: extrusion_body, along: z, of: {{ type: polyline, "
+                   f"closed: true, points: {corners} }} }} }}\n")
+        (ax, ay), (bx, by), (cx, cy) = corners
+        twice = abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax))
+        # Both other sides of this triangle are within the width of the longest: height times length.
+        self.assert_near(self.json_of("measure", "prism.yaml", "prism", "--blank", "0,0,1")["volume"], twice, 1e-7)
+
     def test_text_has_all_digits(self):
         text, _ = self.run_program("measure", "scene.yaml", "rim")
         length = text.split("length", 1)[1].split()[0]

@@ -1,6 +1,7 @@
 #include "geometry/bodies/topology/blank_box.h"
 
 #include <cmath>
+#include <vector>
 
 #include "geometry/bodies/topology/landmarks.h"
 #include "geometry/vectors.h"
@@ -53,12 +54,19 @@ double least_between(const Widths& widths, double lo, double hi) {
 BlankBox blank_box(const Distant& of, const Box3& box, const Vec3& axis) {
   const Widths widths(of, box, axis);
   const double step = 0.5 * kPi / kTried;
-  int best = 0;
-  double least = kInfinity;
-  for (int k = 0; k < kTried; ++k)
-    if (const double area = widths.area(k * step); area < least) least = area, best = k;
-  double angle = least_between(widths, (best - 1) * step, (best + 1) * step);
-  if (!(widths.area(angle) < least)) angle = best * step;
+  std::vector<double> areas;
+  for (int k = 0; k < kTried; ++k) areas.push_back(widths.area(k * step));
+  double angle = 0, least = kInfinity;
+  const auto take = [&](double tried, double area) {
+    if (area < least) least = area, angle = tried;
+  };
+  for (int k = 0; k < kTried; ++k) {
+    take(k * step, areas[k]);
+    // A right angle on, the sides change places.
+    if (areas[k] > areas[(k + kTried - 1) % kTried] || areas[k] > areas[(k + 1) % kTried]) continue;
+    const double found = least_between(widths, (k - 1) * step, (k + 1) * step);
+    take(found, widths.area(found));
+  }
   angle -= 0.5 * kPi * std::floor(angle / (0.5 * kPi));
   const Vec3 x = widths.direction(angle), z = widths.about().z, y = glm::cross(z, x);
   const Interval along_x = widths.along(x), along_y = widths.along(y), along_z = widths.along(z);

@@ -13,8 +13,9 @@ struct BlankBox {
   double volume() const { return size.x * size.y * size.z; }
 };
 
-// Widths are certified; the angle is the best of those tried, of a local minimum to 1e-9: one that is narrower than
-// 3 degrees may be missed. `box` is any that holds the thing. Throws std::invalid_argument for what is unbounded.
+// Widths are certified; the angle is that of the least local minimum, to 1e-9, of those beside each angle of 3 degrees
+// with no less area than its neighbours: a narrower one may be missed. `box` is any that holds the thing. Throws
+// std::invalid_argument for what is unbounded.
 BlankBox blank_box(const Distant& of, const Box3& box, const Vec3& axis);
 
 }  // namespace lekalo::geometry
