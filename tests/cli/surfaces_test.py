@@ -107,6 +107,22 @@ geometry:
         for (u, v), found in zip(places, self.points("scene.yaml", "fit", places)):
             self.assertAlmostEqual(found[2], sum(ck * u**i * v**j for ck, (i, j) in zip(c, powers)), delta=1e-10)
 
+    def test_closed_t_splines_by_long_and_short_lines(self):
+        """Lines round a torus are cut at all their vertices, over the seams too."""
+        n = 6
+        rows = [[n * i + j for j in range(n)] for i in range(n)]
+        lines = [[*row, row[0]] for row in rows] + [[row[j] for row in [*rows, rows[0]]] for j in range(n)]
+        pieces = [[[line[0], line[3], line[0]] for line in lines], [[line[k], line[k + 1]] for line in lines for k in range(n)]]
+        def torus(lines):
+            return (f"{{ type: t_spline, period: {{ u: {n}, v: {n} }}, at: [{{ repeat: {{ i: 0..{n - 1}, j: 0..{n - 1} }}, point: [i, j] }}], lines: {lines}, "
+                    f"points: [{{ repeat: {{ i: 0..{n - 1}, j: 0..{n - 1} }}, point: "
+                    f"[(3 + cos(2 * pi * j / {n})) * cos(2 * pi * i / {n}), (3 + cos(2 * pi * j / {n})) * sin(2 * pi * i / {n}), sin(2 * pi * j / {n})] }}] }}")
+        self.write("scene.yaml", "lekalo: 1\ngeometry:\n" + "".join(f"  s{k}: {torus(p)}\n" for k, p in enumerate([lines, *pieces])))
+        places = [(0.3, 0.2), (2.7, 5.9), (5.5, 5.5)]
+        whole = self.points("scene.yaml", "s0", places)
+        for name in "s1", "s2":
+            self.assert_near(self.points("scene.yaml", name, places), whole, 1e-14)
+
     @unittest.skipUnless(numpy, "python3-scipy is not installed")
     def test_spline_through_a_grid(self):
         """C2 bicubics with derivatives at the borders, against SciPy's splines in both directions."""

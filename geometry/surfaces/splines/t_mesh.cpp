@@ -227,17 +227,19 @@ std::array<int, 2> periods_passed(const TMesh& mesh, int a, int b) {
 
 void add_lines(const TMesh& mesh, const std::vector<std::vector<int>>& lines, std::set<std::array<int, 2>>& edges) {
   const std::vector<std::array<int, 2>> shifts = shifts_of(mesh.periods);
+  // A vertex moved by periods, -1 beyond all that are repeated.
+  const auto moved = [&](int vertex, const std::array<int, 2>& by) {
+    const std::array<int, 2>& own = shifts[static_cast<size_t>(vertex / mesh.count)];
+    const auto found = std::find(shifts.begin(), shifts.end(), std::array{own[0] + by[0], own[1] + by[1]});
+    return found == shifts.end() ? -1 : static_cast<int>(found - shifts.begin()) * mesh.count + vertex % mesh.count;
+  };
+  std::set<std::array<int, 2>> own;
   for (const std::vector<int>& line : lines)
-    for (size_t j = 1; j < line.size(); ++j) {
-      const std::array<int, 2> passed = periods_passed(mesh, line[j - 1], line[j]);
-      for (size_t k = 0; k < shifts.size(); ++k) {
-        const std::array<int, 2> end{shifts[k][0] + passed[0], shifts[k][1] + passed[1]};
-        const auto found = std::find(shifts.begin(), shifts.end(), end);
-        if (found == shifts.end()) continue;
-        add_line(mesh.vertices, line[j - 1] + static_cast<int>(k) * mesh.count,
-                 line[j] + static_cast<int>(found - shifts.begin()) * mesh.count, edges);
-      }
-    }
+    for (size_t j = 1; j < line.size(); ++j)
+      add_line(mesh.vertices, line[j - 1], moved(line[j], periods_passed(mesh, line[j - 1], line[j])), own);
+  for (const std::array<int, 2>& shift : shifts)
+    for (const auto& [a, b] : own)
+      if (const int from = moved(a, shift), to = moved(b, shift); from >= 0 && to >= 0) edges.insert({from, to});
 }
 
 }  // namespace
