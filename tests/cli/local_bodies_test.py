@@ -123,6 +123,11 @@ class LocalBodies(ProgramTest):
         self.assert_near(self.volume("type: refilleted_body, of: base, radius: 0.2", rounded), 32 - 4 * (3.6 + 1.8) * edge - 4 * ball, 1e-8)
         self.assert_near(self.volume("type: offset_body, of: base, distance: -0.9", rounded), 2.2 * 2.2 * 0.2, 1e-9)
 
+    def test_blends_without_room_are_named(self):
+        wide = "{ edges: { between: [block.z_min, block.x_max] }, radius: 1.5 }"
+        self.refused(f"type: fillet_body, of: {TRAY.replace('0.5', '0.3')}, fillets: [{{ edges: {{ between: [block.z_min, block.x_min] }}, "
+                     f"radius: 0.05 }}, {wide}]", "between block.x_max and block.z_min: the faces inner.block.x_max and fillets.1 run into")
+
     def test_what_does_not_follow(self):
         more = BLOCK + "  rounded: { type: fillet_body, of: block, fillets: { edges: { of_face: z_max }, radius: 0.3 } }\n"
         self.refused("type: moved_faces, of: rounded, faces: block.x_max, distance: 0.1", "meets others in a corner, which does not follow", more=more)

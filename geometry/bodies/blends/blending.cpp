@@ -417,15 +417,14 @@ Stage blended_at_once(const Body& body, const std::vector<BlendRequest>& request
   } catch (BlendError& error) {
     error.name = name_of_edge(*now, error.edge);
     throw;
-  } catch (const std::invalid_argument&) {
+  } catch (const std::invalid_argument& reason) {
     // Curves and surfaces do not go as far as it asks of them.
-    for (const BlendRequest& one : asked)
-      for (const int edge : one.edges) {
-        BlendError error(edge, "there is no room for its blend");
-        error.name = name_of_edge(*now, edge);
-        throw error;
-      }
-    throw;
+    const auto one = std::find_if(asked.begin(), asked.end(), [](const BlendRequest& r) { return !r.edges.empty(); });
+    if (one == asked.end()) throw;
+    BlendError error(one->edges.front(),
+                     fmt::format("there is no room for its blend, or one beside ({})", reason.what()));
+    error.name = name_of_edge(*now, error.edge);
+    throw error;
   }
 }
 

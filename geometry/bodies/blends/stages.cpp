@@ -77,14 +77,16 @@ std::vector<BlendRequest> renumbered(std::vector<BlendRequest> requests, const s
 }
 
 // Numbers where several have one name.
+bool is_of_role(const Origin& origin, const std::string& role) {
+  return origin.role == role || origin.role.starts_with(role + ".");
+}
+
 template <class Entity>
 void number_equals(std::vector<Entity>& entities, const std::set<std::string>& roles) {
   std::map<std::string, int> count, next;
   const auto is_new = [&](const Entity& one) {
-    return std::any_of(roles.begin(), roles.end(), [&](const std::string& role) {
-      const std::string& own = one.origin.role;
-      return own == role || own.rfind(role + ".", 0) == 0;
-    });
+    return std::any_of(roles.begin(), roles.end(),
+                       [&](const std::string& role) { return is_of_role(one.origin, role); });
   };
   for (const Entity& one : entities) ++count[one.origin.role];
   for (Entity& one : entities)
@@ -96,9 +98,10 @@ void check_room(const Body& made, const Body& body, const std::vector<BlendReque
   const auto is_new = [&](int face) { return face >= static_cast<int>(body.faces.size()); };
   const auto pair = crossing_faces(made, is_new);
   if (!pair) return;
+  const Origin& blend = made.faces[is_new(pair->first) ? pair->first : pair->second].origin;
   int edge = -1;
   for (const BlendRequest& one : requests)
-    if (edge < 0 && !one.edges.empty()) edge = one.edges.front();
+    if (!one.edges.empty() && (edge < 0 || is_of_role(blend, one.rule.role))) edge = one.edges.front();
   throw BlendError(edge, fmt::format("the faces {} and {} run into each other", name_of_face(made, pair->first),
                                      name_of_face(made, pair->second)));
 }
