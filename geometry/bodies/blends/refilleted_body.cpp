@@ -51,12 +51,6 @@ std::vector<PlaneFillet> plain_ones(const Body& body, const std::vector<FilletCh
   return result;
 }
 
-std::vector<SurfacePtr> surfaces_of(const Body& body) {
-  std::vector<SurfacePtr> surfaces;
-  for (const Face& face : body.faces) surfaces.push_back(face.surface);
-  return surfaces;
-}
-
 Body scaled(const Body& body, const std::vector<PlaneFillet>& fillets, double radius) {
   std::vector<SurfacePtr> surfaces = surfaces_of(body);
   for (const PlaneFillet& fillet : fillets) surfaces[fillet.face] = with_radius(body, fillet, radius);

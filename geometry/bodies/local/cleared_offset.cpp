@@ -23,21 +23,12 @@ constexpr double kNearer = 1e-9;  // of the size: rounding of a distance
 
 const char* const kField = "distance";
 
-std::vector<SurfacePtr> offset_surfaces(const Body& body, double distance) {
-  std::vector<SurfacePtr> surfaces;
-  for (const Face& face : body.faces)
-    surfaces.push_back(offset_support(face.surface, outward_side(face) * distance, kField));
-  return surfaces;
-}
-
-// Nothing where it cannot be made, or would pass through itself.
-std::optional<Body> plain_offset(const Body& body, double distance) {
+bool is_sound(const FaceReplacement& made) {
   try {
-    FaceReplacement made = replace_faces(body, offset_surfaces(body, distance), kField);
     check_replacement(made, kField, "");
-    return std::move(made.body);
+    return true;
   } catch (const std::invalid_argument&) {
-    return std::nullopt;
+    return false;
   }
 }
 
@@ -115,10 +106,9 @@ std::optional<Body> without_vanishing(const Body& body, std::vector<char> group)
   return healed_without(body, group);
 }
 
-// Two faces of the body whose offsets run into each other.
-std::optional<std::pair<int, int>> crossing_pair(const Body& body, double distance) {
+// Two faces of the old body whose new ones run into each other.
+std::optional<std::pair<int, int>> crossing_pair(const FaceReplacement& made) {
   try {
-    const FaceReplacement made = replace_faces(body, offset_surfaces(body, distance), kField);
     const auto pair = crossing_faces(made.body, [](int) { return true; });
     if (!pair) return std::nullopt;
     return std::pair(made.faces[static_cast<size_t>(pair->first)], made.faces[static_cast<size_t>(pair->second)]);
@@ -139,12 +129,20 @@ std::optional<Body> put_together(BooleanOperation operation, const Body& a, cons
 
 std::optional<Body> cleared(const Body& body, double distance, int depth) {
   if (depth == 0) return std::nullopt;
-  if (has_vanishing_face(body, distance)) {
-    const auto rest = without_vanishing(body, vanishing_faces(body, distance));
+  const std::vector<char> vanishing = vanishing_faces(body, distance);
+  if (std::find(vanishing.begin(), vanishing.end(), 1) != vanishing.end()) {
+    const auto rest = without_vanishing(body, vanishing);
     return rest ? cleared(*rest, distance, depth - 1) : std::nullopt;
   }
-  if (auto made = plain_offset(body, distance)) return made;
-  const auto pair = crossing_pair(body, distance);
+  FaceReplacement made;
+  try {
+    const std::vector<double> distances(body.faces.size(), distance);
+    made = replace_faces(body, offset_surfaces(body, distances, kField), kField);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+  if (is_sound(made)) return std::move(made.body);
+  const auto pair = crossing_pair(made);
   if (!pair) return std::nullopt;
   std::array<std::optional<Body>, 2> parts;
   for (int k = 0; k < 2; ++k) {

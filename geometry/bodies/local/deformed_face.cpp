@@ -44,8 +44,7 @@ Body deformed(const Fields& f) {
     check_replacement(made, "face", "moves by less");
     return std::move(made.body);
   }
-  std::vector<SurfacePtr> surfaces;
-  for (const Face& face : body.faces) surfaces.push_back(face.surface);
+  std::vector<SurfacePtr> surfaces = surfaces_of(body);
   const auto turned = std::const_pointer_cast<Surface>(surface);
   turned->set_reversed(body.faces[number].surface->reversed());
   surfaces[number] = turned;

@@ -47,8 +47,7 @@ Body without_chains(const Body& body, std::vector<int> faces) {
 Body deleted(const Fields& f) {
   const Body& body = *f.body("of");
   if (f.boolean("chain")) return without_chains(body, faces_named(body, f, "faces"));
-  std::vector<SurfacePtr> surfaces;
-  for (const Face& face : body.faces) surfaces.push_back(face.surface);
+  std::vector<SurfacePtr> surfaces = surfaces_of(body);
   for (const int k : faces_named(body, f, "faces")) surfaces[k] = nullptr;
   FaceReplacement made = replace_faces(body, surfaces, "faces");
   check_shells(made);

@@ -24,12 +24,6 @@ namespace lekalo::geometry {
 
 namespace {
 
-std::vector<SurfacePtr> surfaces_of(const Body& body) {
-  std::vector<SurfacePtr> surfaces;
-  for (const Face& face : body.faces) surfaces.push_back(face.surface);
-  return surfaces;
-}
-
 // An error tells of fillets that meet others in a corner, which would have to change with them.
 Body with_faces_on(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field, const char* hint) {
   try {

@@ -61,15 +61,9 @@ namespace {
 
 FaceReplacement plain_offset(const Body& body, const std::vector<double>& distances, double share, const char* field,
                              const char* hint) {
-  std::vector<SurfacePtr> surfaces;
   std::vector<double> shares;
-  for (size_t k = 0; k < body.faces.size(); ++k) {
-    const Face& face = body.faces[k];
-    const double side = outward_side(face);
-    shares.push_back(share * distances[k]);
-    surfaces.push_back(offset_support(face.surface, side * shares[k], field));
-  }
-  FaceReplacement made = replace_faces(body, surfaces, field);
+  for (const double distance : distances) shares.push_back(share * distance);
+  FaceReplacement made = replace_faces(body, offset_surfaces(body, shares, field), field);
   if (made.polyhedral) untangle(body, shares, made, field, hint);
   check_replacement(made, field, hint);
   return made;

@@ -21,19 +21,13 @@ namespace lekalo::geometry {
 
 namespace {
 
-std::vector<SurfacePtr> set_off(const Body& body, double h, const char* field) {
-  std::vector<SurfacePtr> surfaces;
-  for (const Face& face : body.faces) {
-    const double side = outward_side(face);
-    surfaces.push_back(offset_support(face.surface, side * h, field));
-  }
-  return surfaces;
-}
-
 class Rounding {
  public:
   Rounding(const Body& body, double h, const char* field)
-      : new_(body, set_off(body, h, field), field), old_(new_.old()), h_(h), field_(field) {}
+      : new_(body, offset_surfaces(body, std::vector<double>(body.faces.size(), h), field), field),
+        old_(new_.old()),
+        h_(h),
+        field_(field) {}
 
   Body build() {
     vertices_.assign(2 * old_.coedges.size(), -1);

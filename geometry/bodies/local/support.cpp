@@ -199,6 +199,19 @@ SurfacePtr unwrapped(const SurfacePtr& surface) {
   return moved && scale_of(moved->map()) ? moved_support(moved->original(), moved->map()) : surface;
 }
 
+std::vector<SurfacePtr> surfaces_of(const Body& body) {
+  std::vector<SurfacePtr> surfaces;
+  for (const Face& face : body.faces) surfaces.push_back(face.surface);
+  return surfaces;
+}
+
+std::vector<SurfacePtr> offset_surfaces(const Body& body, const std::vector<double>& distances, const char* field) {
+  std::vector<SurfacePtr> surfaces;
+  for (size_t f = 0; f < body.faces.size(); ++f)
+    surfaces.push_back(offset_support(body.faces[f].surface, outward_side(body.faces[f]) * distances[f], field));
+  return surfaces;
+}
+
 double area_of_loop(const std::vector<Body::Use>& uses) {
   std::vector<Vec2> points;
   for (const Body::Use& u : uses) {

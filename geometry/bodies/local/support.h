@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geometry/bodies/topology/entity_names.h"
 #include "geometry/bodies/topology/near_foot.h"
@@ -24,6 +25,11 @@ SurfacePtr offset_support(const SurfacePtr& surface, double distance, const char
 SurfacePtr moved_support(const SurfacePtr& surface, const Affine& map);
 // A surface that has been moved, mirrored or scaled evenly, as one of its own kind likewise; others as they are.
 SurfacePtr unwrapped(const SurfacePtr& surface);
+
+// Of all faces.
+std::vector<SurfacePtr> surfaces_of(const Body& body);
+// Those at the distances of the faces along their outward normals.
+std::vector<SurfacePtr> offset_surfaces(const Body& body, const std::vector<double>& distances, const char* field);
 
 // Twice the area that a loop of images encloses in the parameter plane, by chords; negative where it runs clockwise.
 double area_of_loop(const std::vector<Body::Use>& uses);

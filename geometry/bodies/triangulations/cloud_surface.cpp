@@ -62,7 +62,7 @@ SurfaceData laid_over_square(const Fields& f) {
   if (f.has("longest")) options.longest = f.number("longest");
   options.largest_hole = f.integer("largest_hole");
   try {
-    const std::vector<IndexTriangle> triangles = triangulation_of_cloud(data.points, options).triangles;
+    const std::vector<IndexTriangle> triangles = triangulation_of_cloud(data.points, options);
     const std::vector<int> border = border_of_sheet(data.points, triangles);
     if (border.size() < 4) throw std::invalid_argument("the border has three points: a surface has four corners");
     data.at =

@@ -17,7 +17,6 @@ namespace lekalo::geometry {
 namespace {
 
 using Rule = ConnectedMesh::Rule;
-constexpr double kPi = 3.14159265358979323846;
 
 double vertex_weight(double n) {
   const double c = 3.0 / 8 + std::cos(2 * kPi / n) / 4;

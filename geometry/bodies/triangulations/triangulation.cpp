@@ -150,7 +150,7 @@ static SpatialTriangulation triangulation_of_neighbours(const Fields& f) {
   options.largest_hole = f.integer("largest_hole");
   std::vector<Vec2> uv;
   try {
-    result.triangles = triangulation_of_cloud(result.points, options).triangles;
+    result.triangles = triangulation_of_cloud(result.points, options);
     if (f.boolean("flattened")) uv = flattened_to_circle(result.points, result.triangles);
   } catch (const std::invalid_argument& error) {
     throw FieldError("points", error.what(), "more points, or 'triangles'");
