@@ -18,6 +18,8 @@ namespace lekalo::geometry {
 
 namespace {
 
+// Edges join points each of which is among so many nearest ones of the other.
+constexpr int kNeighbours = 16;
 // Edges rise no more than this out of the tangent planes of their ends (sine of the angle).
 constexpr double kSteepest = 0.7;
 // Edges at one point stand no nearer to each other (cosine, of 8 degrees).
@@ -58,7 +60,7 @@ bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
 class CloudEdges {
  public:
   CloudEdges(std::span<const Vec3> points, const CloudOptions& options)
-      : points_(points), nearest_(nearest_neighbours(points, options.neighbours)), beside_(points.size()) {
+      : points_(points), nearest_(nearest_neighbours(points, kNeighbours)), beside_(points.size()) {
     normals_ = estimated_normals(points, nearest_);
     check_sides();
     for (const auto& [length, edge] : candidates(options.longest))
@@ -202,20 +204,20 @@ std::vector<IndexTriangle> triangles_of_face(std::span<const Vec3> points, const
 
 }  // namespace
 
-CloudTriangulation triangulation_of_cloud(std::span<const Vec3> points, const CloudOptions& options) {
+std::vector<IndexTriangle> triangulation_of_cloud(std::span<const Vec3> points, const CloudOptions& options) {
   if (points.size() < 4) throw std::invalid_argument("a surface needs four points at least");
   const CloudEdges edges(points, options);
   for (size_t i = 0; i < points.size(); ++i)
     if (edges.beside()[i].size() < 2)
       throw std::invalid_argument(fmt::format("{} has {} to be joined with", place_of(points, static_cast<int>(i)),
                                               edges.beside()[i].empty() ? "no point" : "one point"));
-  CloudTriangulation result{edges.normals(), {}};
+  std::vector<IndexTriangle> result;
   std::set<int> on_border;
   for (const std::vector<int>& face : faces_of(edges.beside())) {
-    const bool is_small = face.size() <= static_cast<size_t>(std::max(options.largest_hole, 3));
+    const bool is_small = face.size() <= static_cast<size_t>(options.largest_hole);
     const std::vector<IndexTriangle> filled =
         is_small ? triangles_of_face(points, edges.normals(), face) : std::vector<IndexTriangle>();
-    result.triangles.insert(result.triangles.end(), filled.begin(), filled.end());
+    result.insert(result.end(), filled.begin(), filled.end());
     if (!filled.empty()) continue;
     for (const int i : face)
       if (!on_border.insert(i).second)

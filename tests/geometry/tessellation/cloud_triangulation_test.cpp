@@ -53,11 +53,11 @@ TEST(CloudTriangulation, BallsAreClosedAndLookOutwards) {
   for (const auto& [count, noise] : {std::pair(100, 0.0), std::pair(400, 0.0), std::pair(200, 0.02)})
     for (unsigned seed = 0; seed < 3; ++seed) {
       const std::vector<Vec3> points = ball(count, noise, seed);
-      const CloudTriangulation found = triangulation_of_cloud(points);
-      const Topology topology = topology_of(points.size(), found.triangles);
+      const std::vector<IndexTriangle> found = triangulation_of_cloud(points);
+      const Topology topology = topology_of(points.size(), found);
       EXPECT_EQ(topology.euler, 2) << count << ' ' << noise;
       EXPECT_EQ(topology.free_sides, 0);
-      EXPECT_NEAR(volume(points, found.triangles), 4.18879, 0.05 * 4.18879 + 40.0 / count / 10);
+      EXPECT_NEAR(volume(points, found), 4.18879, 0.05 * 4.18879 + 40.0 / count / 10);
     }
 }
 
@@ -70,11 +70,11 @@ TEST(CloudTriangulation, RandomPointsOfATorus) {
       const double u = 2 * kPi * (i + off(random)) / 40, v = 2 * kPi * (j + off(random)) / 16;
       points.emplace_back((3 + std::cos(v)) * std::cos(u), (3 + std::cos(v)) * std::sin(u), std::sin(v));
     }
-  const CloudTriangulation found = triangulation_of_cloud(points);
-  const Topology topology = topology_of(points.size(), found.triangles);
+  const std::vector<IndexTriangle> found = triangulation_of_cloud(points);
+  const Topology topology = topology_of(points.size(), found);
   EXPECT_EQ(topology.euler, 0);
   EXPECT_EQ(topology.free_sides, 0);
-  EXPECT_NEAR(volume(points, found.triangles), 59.2176, 0.05 * 59.2176);
+  EXPECT_NEAR(volume(points, found), 59.2176, 0.05 * 59.2176);
 }
 
 // A half cylinder: one border; laid flat no triangle is turned over, and shares of the border are those of its length.
@@ -84,13 +84,13 @@ TEST(CloudTriangulation, SheetsAreLaidFlat) {
     for (int j = 0; j <= 8; ++j)
       points.emplace_back(std::cos(kPi * i / 12 + 0.03 * std::sin(7 * j + i)), 0.25 * j,
                           std::sin(kPi * i / 12 + 0.03 * std::sin(7 * j + i)));
-  const CloudTriangulation found = triangulation_of_cloud(points);
-  const Topology topology = topology_of(points.size(), found.triangles);
+  const std::vector<IndexTriangle> found = triangulation_of_cloud(points);
+  const Topology topology = topology_of(points.size(), found);
   EXPECT_EQ(topology.euler, 1);
   EXPECT_EQ(topology.free_sides, 40);
-  const std::vector<Vec2> uv = flattened_to_circle(points, found.triangles);
+  const std::vector<Vec2> uv = flattened_to_circle(points, found);
   double area = 0;
-  for (const IndexTriangle& t : found.triangles) {
+  for (const IndexTriangle& t : found) {
     const Vec2 a = uv[t[1]] - uv[t[0]], b = uv[t[2]] - uv[t[0]];
     EXPECT_GT(a.x * b.y - a.y * b.x, 0);
     area += 0.5 * (a.x * b.y - a.y * b.x);
@@ -108,12 +108,12 @@ TEST(CloudTriangulation, PlaneSheetsStayWhatTheyAre) {
       const bool inner = i > 0 && i < 5 && j > 0 && j < 5;
       points.emplace_back(i + (inner ? off(random) : 0), j + (inner ? off(random) : 0), 0);
     }
-  const CloudTriangulation found = triangulation_of_cloud(points);
-  const std::vector<int> border = border_of_sheet(points, found.triangles);
+  const std::vector<IndexTriangle> found = triangulation_of_cloud(points);
+  const std::vector<int> border = border_of_sheet(points, found);
   ASSERT_EQ(border.size(), 20u);
   std::vector<Vec2> at;
   for (const int i : border) at.emplace_back(points[i]);
-  const std::vector<Vec2> uv = flattened(points, found.triangles, border, at);
+  const std::vector<Vec2> uv = flattened(points, found, border, at);
   for (size_t i = 0; i < points.size(); ++i) EXPECT_LT(glm::length(uv[i] - Vec2(points[i])), 1e-13);
 }
 
