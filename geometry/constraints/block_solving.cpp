@@ -1,6 +1,6 @@
 // A system solved block by block: each finds its unknowns while those of the blocks before stay as they were found.
-// That is the solution with the least change of all where each unknown of the over- and well determined blocks is held
-// by its block's equations, so that the blocks after have no say in it.
+// That is the solution with the least change, of those near the start, where each unknown of the over- and well
+// determined blocks is held by its block's equations, so that the blocks after have no say in it.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <memory>

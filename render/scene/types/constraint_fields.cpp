@@ -10,8 +10,8 @@ namespace {
 Field weight() {
   using namespace geometry;
   return {"weight", number().positive(),
-          "how unwilling it is to change: of all solutions the one is taken with the "
-          "least sum of weights times squares of changes",
+          "how unwilling it is to change: of the solutions near the start the one is taken with "
+          "the least sum of weights times squares of changes",
           false, "1"};
 }
 
