@@ -61,6 +61,19 @@ class Attributes(ProgramTest):
         said = self.error_of("{ of: part, density: 1 }", "integrator: { type: analysis, attribute: temperature }\n")
         self.assertIn("nothing in the scene has the attribute 'temperature'", said)
 
+    def test_an_attribute_is_of_one_element(self):
+        """Where two faces are equally far the scene is not built without what is made of the number."""
+        self.write("scene.yaml", """lekalo: 1
+geometry:
+  part: { type: box, size: [1, 1, 1], transform: [{ rotate: 45, axis: x }] }
+  k: { type: segment, from: [0, 0, 0], to: [heat, 0, 0] }
+attributes: [{ of: { of: part, extreme: z }, temperature: 5 }]
+parameters: { heat: { type: attribute, of: { of: part, extreme: z }, name: temperature } }
+objects: [{ shape: part }, { shape: k, lines: { curve: thick } }]
+""")
+        said = self.run_program("check", "scene.yaml", code=SCENE_ERROR)[1]
+        self.assertRegex(said, r"scene.yaml:6:.*: 2 things are meant by this; one is wanted here")
+
     def test_inheritance_of_edges(self):
         """Where both faces say the same an edge has it, else it has what its body has."""
         self.write("scene.yaml", PART + "attributes:\n  - { of: part, temperature: 1 }\n"

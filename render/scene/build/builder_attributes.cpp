@@ -271,7 +271,14 @@ std::optional<MeasuredQuantity> Builder::quantity_of_element(const QuantityOfEle
   }
   const AttributeTable& table = attributes();
   const auto elements = elements_of(of, {});
-  if (!elements || elements->size() != 1) return std::nullopt;
+  if (!elements) return std::nullopt;
+  if (elements->size() != 1) {
+    std::vector<std::string> names;
+    for (const NamedElement& one : *elements) names.push_back(one.name);
+    diagnostics_.error(of.place, fmt::format("{} things are meant by this; one is wanted here", names.size()),
+                       names.empty() ? "" : "they are " + listed(names, kMostNames));
+    return std::nullopt;
+  }
   const NamedElement& element = elements->front();
   const std::string name = asked.body ? "density" : asked.attribute;
   const auto found = table.of(element.id, name, element.body.get());
