@@ -354,7 +354,7 @@ void add_quantity_fields(TypeDeclaration& type) {
       .field("ceiling", direction(), "of reflection_lines: normal of the plane in which the lamps lie", "z")
       .field("spacing", length().positive(), "of reflection_lines: from one lamp to the next", "1")
       .field("cells", integer().between(1, 10000).for_each_direction(), "of parameters: squares over the domain", "10")
-      .optional("to", reference({Category::surface, Category::curve}),
+      .optional("to", reference({Category::curve, Category::surface}),
                 "of distance and strain: the other surface, or of distance a curve")
       .optional("points", points().count(1), "of deviation: measured points");
 }

@@ -74,6 +74,13 @@ objects: [{ shape: part }, { shape: k, lines: { curve: thick } }]
         said = self.run_program("check", "scene.yaml", code=SCENE_ERROR)[1]
         self.assertRegex(said, r"scene.yaml:6:.*: 2 things are meant by this; one is wanted here")
 
+    def test_conditions_mean_the_same_in_a_quantity(self):
+        """A face, unless they speak of an edge."""
+        for of, value in (("{ of: part, extreme: z }", 20), ("{ of: part, edge: 0 }", 30)):
+            self.write("scene.yaml", f"{PART}attributes: [{{ of: {of}, temperature: {value} }}]\n"
+                                     f"parameters: {{ heat: {{ type: attribute, of: {of}, name: temperature }} }}\n")
+            self.assertEqual(self.json_of("measure", "scene.yaml", "heat")["value"], value)
+
     def test_inheritance_of_edges(self):
         """Where both faces say the same an edge has it, else it has what its body has."""
         self.write("scene.yaml", PART + "attributes:\n  - { of: part, temperature: 1 }\n"

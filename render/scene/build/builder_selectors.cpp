@@ -48,13 +48,15 @@ Category category_of(Element element) {
   return element == Element::face ? Category::surface : element == Element::edge ? Category::curve : Category::point;
 }
 
-// What a selector is for: what its conditions speak of, or what is wanted.
+// What a selector is for: what its conditions speak of, or what is wanted, curves or surfaces as they come first.
 Element element_of(const Value& map, std::span<const Category> wanted) {
   if (map.find("face")) return Element::face;
   if (map.find("vertex")) return Element::vertex;
   if (map.find("edge") || map.find("between")) return Element::edge;
-  if (is_wanted(wanted, Category::curve)) return Element::edge;
-  if (is_wanted(wanted, Category::surface)) return Element::face;
+  for (const Category category : wanted) {
+    if (category == Category::curve) return Element::edge;
+    if (category == Category::surface) return Element::face;
+  }
   return Element::vertex;
 }
 

@@ -125,8 +125,8 @@ TypeDeclaration closest_parameter_type() {
 TypeDeclaration attribute_type() {
   return declare(Category::quantity, "attribute",
                  "An attribute of an element, its own or one that it inherits: of a face that of its body.")
-      .field("of", reference({Category::curve, Category::surface, Category::body, Category::mesh, Category::shape}),
-             "name of the element")
+      .field("of", reference({Category::surface, Category::curve, Category::body, Category::mesh, Category::shape}),
+             "name of the element, or conditions: a face, unless they speak of an edge")
       .field("name", text(), "of the attribute: density, temperature, ...")
       .example("of: my_body, name: temperature")
       .built_by([](const Fields& f) {
