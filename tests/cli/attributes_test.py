@@ -81,6 +81,15 @@ objects: [{ shape: part }, { shape: k, lines: { curve: thick } }]
                                      f"parameters: {{ heat: {{ type: attribute, of: {of}, name: temperature }} }}\n")
             self.assertEqual(self.json_of("measure", "scene.yaml", "heat")["value"], value)
 
+    def test_what_a_quantity_asks_of_is_shown(self):
+        """Also where it is asked for by geometry, in which operands have names of their own."""
+        for of in ("part", "part.z_max", "{ of: part, extreme: z }"):
+            self.write("scene.yaml", f"{PART}  ring: {{ type: circle, radius: heat }}\n"
+                                     f"attributes: [{{ of: {of}, temperature: 2 }}]\nparameters:\n"
+                                     "  around: { type: arc_length, of: ring }\n"
+                                     f"  heat: {{ type: attribute, of: {of}, name: temperature }}\n")
+            self.assertIn("3 entities, 3 objects", self.run_program("check", "scene.yaml")[0])
+
     def test_inheritance_of_edges(self):
         """Where both faces say the same an edge has it, else it has what its body has."""
         self.write("scene.yaml", PART + "attributes:\n  - { of: part, temperature: 1 }\n"

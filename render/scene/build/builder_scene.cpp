@@ -62,16 +62,18 @@ Builder::Builder(const SceneDescription& scene, const BuildOptions& options, Dia
   parameters_.measure_by([this](const Value& map) { return measured(map); });
 }
 
-// To measure a thing is no use of it: it is shown all the same.
+// To measure a thing is no use of it: it is shown all the same. It is measured as it is named, whatever it is for.
 std::optional<MeasuredQuantity> Builder::measured(const Value& map) {
   static const Category wanted[] = {Category::quantity};
-  const bool outer = std::exchange(names_use_, false);
-  const auto built = build_typed(map, {}, wanted);
-  names_use_ = outer;
-  if (!built) return std::nullopt;
-  if (const auto* of_element = std::any_cast<QuantityOfElement>(&built->value))
-    return quantity_of_element(*of_element, map);
-  return std::any_cast<MeasuredQuantity>(built->value);
+  const bool uses = std::exchange(names_use_, false), in_geometry = std::exchange(in_geometry_, false);
+  std::optional<MeasuredQuantity> found;
+  if (const auto built = build_typed(map, {}, wanted)) {
+    const auto* of_element = std::any_cast<QuantityOfElement>(&built->value);
+    found = of_element ? quantity_of_element(*of_element, map) : std::any_cast<MeasuredQuantity>(built->value);
+  }
+  names_use_ = uses;
+  in_geometry_ = in_geometry;
+  return found;
 }
 
 Model Builder::build() {
