@@ -90,6 +90,21 @@ objects: [{ shape: part }, { shape: k, lines: { curve: thick } }]
                                      f"  heat: {{ type: attribute, of: {of}, name: temperature }}\n")
             self.assertIn("3 entities, 3 objects", self.run_program("check", "scene.yaml")[0])
 
+    def test_a_thing_built_with_an_attribute_has_its_own(self):
+        """What is said of it is not asked for by the number with which it is built; a true circle is told."""
+        for attributes in ("[{ of: [part, ring], temperature: 5 }, { of: ring, wear: 2 }]",
+                           "[{ of: ring, temperature: 7 }, { of: { of: part, face: z_min }, wear: heat }, "
+                           "{ of: part.z_max, temperature: 5 }, { of: part, temperature: 3 }]"):
+            self.write("scene.yaml", f"{PART}  ring: {{ type: circle, radius: heat }}\nattributes: {attributes}\n"
+                                     "parameters: { heat: { type: attribute, of: part.z_max, name: temperature } }\n")
+            self.assertEqual(self.json_of("measure", "scene.yaml", "heat")["value"], 5)
+            self.assertIn("temperature", self.json_of("measure", "scene.yaml", "ring")["attributes"])
+        said = self.error_of("{ of: part, temperature: heat }",
+                             "parameters: { heat: { type: attribute, of: part, name: temperature } }\n")
+        self.assertIn("scene.yaml:6:30: the parameter 'heat' is defined by itself", said)
+        said = self.error_of("{ of: part, density: -1 }", "parameters: { m: { type: mass, of: part } }\n")
+        self.assertNotIn("has no attribute", said)
+
     def test_inheritance_of_edges(self):
         """Where both faces say the same an edge has it, else it has what its body has."""
         self.write("scene.yaml", PART + "attributes:\n  - { of: part, temperature: 1 }\n"

@@ -257,9 +257,13 @@ class Builder {
   void read_attributes(const Value& map, const Counters& counters);
   bool read_numbers_of(const Value& map, const Counters& counters, ElementAttributes& into);
   std::optional<std::vector<NamedElement>> elements_of(const Value& value, const Counters& counters);
+  std::optional<std::vector<NamedElement>> elements_of_item(const Value& written, const Counters& counters);
+  const Entry* thing_named(const Value& written, const Counters& counters);
   std::optional<std::vector<NamedElement>> elements_named(const Value& name);
   std::optional<std::vector<NamedElement>> elements_selected(const Value& map, const Counters& counters);
   std::optional<geometry::BodyPtr> faces_of(const Built& whole, const Value& asked);
+  std::optional<AttributeTable> said_of(const Entry* thing, const std::string& name);
+  std::vector<std::string> names_of_attributes();
   std::optional<MeasuredQuantity> quantity_of_element(const QuantityOfElement& asked, const Value& map);
   // What attributes say of the shape; null: nothing.
   MaterialPtr material_of_shape(const Entity& shape);

@@ -126,21 +126,31 @@ std::optional<std::vector<NamedElement>> Builder::elements_of(const Value& value
   std::vector<NamedElement> all;
   bool good = true;
   each_item(value, counters, [&](const Value& written, const Counters& inner) {
-    const Value& item = with_counters(written, inner);
-    if (item.invalid) {
-      good = false;
-      return;
-    }
-    if (item.is_map() && !is_selector(item)) {
-      diagnostics_.error(item.place, "attributes are those of named things", "give it a name in 'geometry'");
-      good = false;
-      return;
-    }
-    const auto some = item.is_map() ? elements_selected(item, inner) : elements_named(item);
+    const auto some = elements_of_item(written, inner);
     good = good && some;
     if (some) all.insert(all.end(), some->begin(), some->end());
   });
   return good ? std::optional(std::move(all)) : std::nullopt;
+}
+
+std::optional<std::vector<NamedElement>> Builder::elements_of_item(const Value& written, const Counters& counters) {
+  const Value& item = with_counters(written, counters);
+  if (item.invalid) return std::nullopt;
+  if (item.is_map() && !is_selector(item)) {
+    diagnostics_.error(item.place, "attributes are those of named things", "give it a name in 'geometry'");
+    return std::nullopt;
+  }
+  return item.is_map() ? elements_selected(item, counters) : elements_named(item);
+}
+
+// The entry of the thing, or of its family, that an item of `of` names; null: none.
+const Entry* Builder::thing_named(const Value& written, const Counters& counters) {
+  const Value& item = with_counters(written, counters);
+  const Value* of = is_selector(item) ? item.find("of") : nullptr;
+  const Value& name = of ? with_counters(*of, counters) : item;
+  const Value* things = section("geometry");
+  if (!name.is_scalar() || name.invalid || !things || !things->is_map()) return nullptr;
+  return find_named(*things, name.text, name.place.file ? name.place.file->scope : "").entry;
 }
 
 // A body, or the boundary of a solid that is put together.
@@ -263,13 +273,43 @@ void Builder::dress(Object& object) {
   renumber_face_materials(object);
 }
 
+// One number of one thing and its faces and edges: what else is said may be of things that are built with this number.
+std::optional<AttributeTable> Builder::said_of(const Entry* thing, const std::string& name) {
+  AttributeTable table;
+  bool good = true;
+  each_item(*section("attributes"), {}, [&](const Value& item, const Counters& counters) {
+    const Value* of = item.is_map() ? item.find("of") : nullptr;
+    if (!of || !item.find(name)) return;
+    Value only = item;
+    std::erase_if(only.entries, [&](const Entry& entry) { return entry.key.name != name; });
+    each_item(*of, counters, [&](const Value& one, const Counters& inner) {
+      if (thing_named(one, inner) != thing) return;
+      ElementAttributes said;
+      const auto elements = elements_of_item(one, inner);
+      good = elements && read_numbers_of(only, counters, said) && good;
+      if (good)
+        for (const NamedElement& element : *elements) table.add(element, said);
+    });
+  });
+  return good ? std::optional(std::move(table)) : std::nullopt;
+}
+
+// Every name of a number that the section gives.
+std::vector<std::string> Builder::names_of_attributes() {
+  std::set<std::string> names;
+  each_item(*section("attributes"), {}, [&](const Value& item, const Counters&) {
+    for (const Entry& entry : item.entries) names.insert(entry.key.name);
+  });
+  for (const char* other : {"of", "repeat", "material"}) names.erase(other);
+  return {names.begin(), names.end()};
+}
+
 std::optional<MeasuredQuantity> Builder::quantity_of_element(const QuantityOfElement& asked, const Value& map) {
   const Value& of = *map.find("of");
-  if (!attributes_ && !section("attributes")) {
+  if (!section("attributes")) {
     diagnostics_.error(map.place, "the scene says no attributes", "attributes: [{ of: part, density: 7850 }]");
     return std::nullopt;
   }
-  const AttributeTable& table = attributes();
   const auto elements = elements_of(of, {});
   if (!elements) return std::nullopt;
   if (elements->size() != 1) {
@@ -281,9 +321,11 @@ std::optional<MeasuredQuantity> Builder::quantity_of_element(const QuantityOfEle
   }
   const NamedElement& element = elements->front();
   const std::string name = asked.body ? "density" : asked.attribute;
-  const auto found = table.of(element.id, name, element.body.get());
+  const auto table = said_of(thing_named(of, {}), name);
+  if (!table) return std::nullopt;
+  const auto found = table->of(element.id, name, element.body.get());
   if (!found) {
-    const std::vector<std::string> names = table.names();
+    const std::vector<std::string> names = names_of_attributes();
     const Value* place = map.find("name");
     diagnostics_.error(place ? place->place : of.place,
                        fmt::format("'{}' has no attribute '{}'{}", element.name, name, suggestion(name, names)),
