@@ -165,6 +165,18 @@ objects: [{ shape: part }, { shape: k, lines: { curve: thick } }]
             found = self.pixels(scene + f"attributes: {{ of: plate, transparency: {transparency} }}\n")
             self.assert_near([plane[middle] for plane in found], color, 1e-6)
 
+    def test_transparency_of_a_back(self):
+        """A surface lets through what is behind it whichever of its sides is seen, also where these differ."""
+        for turned in ("false", "true"):
+            found = self.pixels("lekalo: 1\ngeometry:\n"
+                                f"  sheet: {{ type: plane, center: [0, 0, 1], size: [2, 2], reversed: {turned} }}\n"
+                                "  ground: { type: box, size: [2, 2, 0.5] }\n"
+                                "materials: { red: { type: emission, color: [1, 0, 0] }, blue: { type: emission, color: [0, 0, 1] },\n"
+                                "  green: { type: emission, color: [0, 1, 0] } }\nlights: {}\ncamera: { view: top }\nimage: { size: [30, 30], samples: 1 }\n"
+                                "objects: [{ shape: sheet, material: blue, back_material: green }, { shape: ground, material: red }]\n"
+                                "attributes: { of: sheet, transparency: 1 }\n")
+            self.assert_near([plane[15 * 30 + 15] for plane in found], [1, 0, 0], 1e-6)
+
     def test_a_section_keeps_the_materials_of_faces(self):
         """Seen from above a cut at half depth leaves the top as it is."""
         view = ("camera: { view: top }\nimage: { size: [60, 60], samples: 1 }\n"

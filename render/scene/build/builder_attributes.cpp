@@ -263,6 +263,8 @@ void Builder::dress(Object& object) {
       of_faces[id.index] = transparent(said.material ? said.material : plain, id);
   }
   object.material = transparent(plain, {thing});
+  if (object.back_material)
+    object.back_material = object.back_material == plain ? object.material : transparent(object.back_material, {thing});
   if (!of_faces.empty()) object.material = std::make_shared<FaceMaterials>(object.material, std::move(of_faces));
   // The faces that are numbered are those of its boundary.
   if (const auto* solid = std::get_if<geometry::ShapePtr>(&shape); solid && has_faces) {
