@@ -102,6 +102,15 @@ class Details(ProgramTest):
             self.write("e.yaml", good.replace(old, new))
             self.assertIn(message, self.run_program("check", "e.yaml", code=SCENE_ERROR)[1], new)
 
+    def test_a_slip_in_a_detail_is_all_that_is_said(self):
+        good = (self.folder / self.scene()).read_text()
+        for old, new in (("radius: 2", "radius: 0"), ("detail: {", "detial: {"),
+                         ("b: { camera: { view: front }", "b: { camera: { type: perspective, from: [9, -50, 9], at: [9, 0, 4] }")):
+            self.write("e.yaml", good.replace(old, new))
+            said = self.run_program("check", "e.yaml", code=SCENE_ERROR)[1]
+            self.assertTrue(said.startswith("e.yaml:6:"), said)
+            self.assertNotIn("there is no panel", said)
+
     def test_marks_of_what_looks_another_way_are_left_out_by_name(self):
         self.write("o.yaml", (self.folder / self.scene()).read_text().replace("front: { camera: { view: front }",
                                                                               "front: { camera: { view: top }"))

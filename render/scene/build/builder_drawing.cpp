@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "render/cameras/cameras.h"
 #include "render/model/detail.h"
@@ -51,8 +52,9 @@ void Builder::merge_styles() {
 
 namespace {
 
-// The sections that marks of other panels speak of.
-void give_sections(std::vector<Annotation>& annotations, const std::vector<Panel>& panels, Diagnostics& diagnostics) {
+// The sections that marks of other panels speak of. Of panels that are `wrong` enough has been said.
+void give_sections(std::vector<Annotation>& annotations, const std::vector<Panel>& panels,
+                   const std::set<std::string>& wrong, Diagnostics& diagnostics) {
   for (Annotation& annotation : annotations) {
     if (annotation.type != "cutting_plane") continue;
     const std::string& name = annotation.values.text("of");
@@ -60,14 +62,15 @@ void give_sections(std::vector<Annotation>& annotations, const std::vector<Panel
         std::find_if(panels.begin(), panels.end(), [&](const Panel& one) { return one.name == name && one.section; });
     if (panel != panels.end())
       annotation.values.set("section", panel->section);
-    else
+    else if (!wrong.contains(name))
       diagnostics.error(annotation.place, fmt::format("there is no panel '{}' with a section", name),
                         "panels: { aa: { section: { planes: { normal: -y }, title: A } } }");
   }
 }
 
 // The details that marks of other panels speak of, and the way in which they are seen.
-void give_details(std::vector<Annotation>& annotations, const std::vector<Panel>& panels, Diagnostics& diagnostics) {
+void give_details(std::vector<Annotation>& annotations, const std::vector<Panel>& panels,
+                  const std::set<std::string>& wrong, Diagnostics& diagnostics) {
   for (Annotation& annotation : annotations) {
     if (annotation.type != "detail_circle") continue;
     const std::string& name = annotation.values.text("of");
@@ -75,6 +78,7 @@ void give_details(std::vector<Annotation>& annotations, const std::vector<Panel>
       return one.name == name && one.camera && detail_of(one.drawing);
     });
     if (panel == panels.end()) {
+      if (wrong.contains(name)) continue;
       diagnostics.error(
           annotation.place, fmt::format("there is no panel '{}' with a detail", name),
           "panels: { b: { camera: { view: front }, detail: { around: [0, 0, 0], radius: 2, title: B } } }");
@@ -161,6 +165,7 @@ void cut_for_panel(std::vector<Object>& objects, const Section& section) {
 }  // namespace
 
 void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
+  std::set<std::string> wrong;
   visit_named("panels", Category::panel, [&](const std::string& name, const Built& built) {
     auto read = std::any_cast<PanelAsRead>(built.value);
     const Value* entry = section("panels")->find(name);
@@ -214,15 +219,19 @@ void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
       const bool own_annotations = read.drawing && read.drawing->given("annotations");
       attempt(place, "'detail'", [&] { return make_detail(read.detail, own_annotations, model.styles, panel), true; });
     }
+    if (read.detail && !detail_of(panel.drawing)) wrong.insert(name);
     model.panels.push_back(std::move(panel));
   });
+  for (const auto& [name, thing] : sections_["panels"])
+    for (const NamedThing::Member& one : thing.members)
+      if (one.state == NamedThing::Member::State::wrong) wrong.insert(one.name.empty() ? name : name + "." + one.name);
   const std::vector<Panel> known = model.panels;
   for (Panel& panel : model.panels) {
-    give_sections(panel.drawing.annotations, known, diagnostics_);
-    give_details(panel.drawing.annotations, known, diagnostics_);
+    give_sections(panel.drawing.annotations, known, wrong, diagnostics_);
+    give_details(panel.drawing.annotations, known, wrong, diagnostics_);
   }
-  give_sections(model.drawing.annotations, known, diagnostics_);
-  give_details(model.drawing.annotations, known, diagnostics_);
+  give_sections(model.drawing.annotations, known, wrong, diagnostics_);
+  give_details(model.drawing.annotations, known, wrong, diagnostics_);
 }
 
 bool Builder::check_panel(const Value& name) {
