@@ -25,10 +25,16 @@ Detail detail_of(const Fields& fields) {
   return detail;
 }
 
+namespace {
+
+// Four digits, more only before the point.
+std::string few_digits(double x) { return x < 1000 ? fmt::format("{:.4g}", x) : fmt::format("{:.0f}", x); }
+
+}  // namespace
+
 std::string view_title(const Detail& detail) {
   if (!(detail.scale > 0)) return detail.title;
-  const std::string ratio =
-      detail.scale >= 1 ? fmt::format("{:g}:1", detail.scale) : fmt::format("1:{:g}", 1 / detail.scale);
+  const std::string ratio = detail.scale >= 1 ? few_digits(detail.scale) + ":1" : "1:" + few_digits(1 / detail.scale);
   return detail.title.empty() ? ratio : fmt::format("{} ({})", detail.title, ratio);
 }
 

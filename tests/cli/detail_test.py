@@ -66,7 +66,8 @@ class Details(ProgramTest):
         self.assertNotIn("detail_circle", self.panel(svg, "b"))
 
     def test_titles(self):
-        for detail, title in (("scale: 5, title: B", "B (5:1)"), ("scale: 0.5, title: B", "B (1:2)"), ("scale: 2", "2:1")):
+        for detail, title in (("scale: 5, title: B", "B (5:1)"), ("scale: 0.5, title: B", "B (1:2)"), ("scale: 2", "2:1"),
+                              ("scale: 0.3, title: B", "B (1:3.333)"), ("scale: 10/3", "3.333:1")):
             self.assertIn(f">{title}</tspan>", self.draw(detail), detail)
         self.assertIn(">B</tspan>", self.panel(self.draw("title: B", ""), "b"))
 
