@@ -32,6 +32,12 @@ class Quantities(ProgramTest):
             said = self.errors_of(f"parameters:\n  r: {text}\ngeometry:\n  c: {{ type: circle, radius: 1 }}\n")
             self.assertIn(part, said)
 
+    def test_the_length_of_a_part_has_no_direction(self):
+        for ends in ("from: 1, to: 3", "from: 3, to: 1"):
+            self.write("scene.yaml", f"lekalo: 1\nparameters: {{ l: {{ type: arc_length, of: c, {ends} }} }}\n"
+                                     "geometry: { c: { type: circle, radius: 2 } }\n")
+            self.assert_near(self.json_of("measure", "scene.yaml", "l")["value"], 4, 1e-12)
+
     def test_what_is_measured_is_shown(self):
         """To measure is no use: the circle is drawn though a parameter names it."""
         self.write("scene.yaml", "lekalo: 1\nparameters: { l: { type: arc_length, of: c } }\n"

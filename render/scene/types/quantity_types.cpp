@@ -71,7 +71,7 @@ TypeDeclaration arc_length_type() {
         if (!f.has("from") && !f.has("to")) return MeasuredQuantity{measure(*curve).length.value};
         const Interval domain = curve->domain();
         const double from = f.has("from") ? f.number("from") : domain.lo, to = f.has("to") ? f.number("to") : domain.hi;
-        const double length = arc_length(*curve, from, to).value;
+        const double length = std::abs(arc_length(*curve, from, to).value);
         if (!std::isfinite(length)) throw FieldError("of", "the length of this part cannot be told");
         return MeasuredQuantity{length};
       });
