@@ -337,11 +337,11 @@ void PathTracer::add_glow(const LightTree::Choice& chosen, const Boundary& seen,
 double PathTracer::weight_of_glow(const SurfacePoint& point) const {
   if (origin_.eye || origin_.sharp || origin_.in_medium || origin_.gone > 0) return 1;
   const std::vector<World::Glow>& glows = world_.glows();
-  for (size_t i = 0; i < glows.size(); ++i)
-    if (glows[i].instance == point.instance)
-      return power_heuristic(origin_.density, choice_at_origin(world_.lamps().size() + i) /
-                                                  cone_of(glows[i], origin_.point).solid_angle());
-  return 1;
+  const auto glow = std::lower_bound(glows.begin(), glows.end(), point.instance,
+                                     [](const World::Glow& one, int64_t instance) { return one.instance < instance; });
+  if (glow == glows.end() || glow->instance != point.instance) return 1;
+  const size_t number = world_.lamps().size() + static_cast<size_t>(glow - glows.begin());
+  return power_heuristic(origin_.density, choice_at_origin(number) / cone_of(*glow, origin_.point).solid_angle());
 }
 
 void PathTracer::add_caustic(const Boundary& seen, const Bsdf& bsdf) {

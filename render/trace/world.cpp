@@ -391,7 +391,7 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
 }
 
 void World::list_glows() {
-  constexpr size_t kMostGlows = 64;
+  constexpr size_t kMostGlows = 1 << 16;
   std::unordered_map<const Object*, float> brightness;
   for (const Object* object : compiled_->objects) {
     float most = 0;

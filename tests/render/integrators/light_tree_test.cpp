@@ -181,6 +181,28 @@ TEST(LightTree, TwoHundredLampsAreTheSumOfEach) {
   }
 }
 
+TEST(LightTree, HundredBallsThatGlowAreTheSumOfEach) {
+  // White matt ground under balls: sum of L r^2 cos / d^2. Drawn directions alone would hardly find them.
+  SmallScene scene;
+  scene.add(plane({0, 0, 0}, {0, 0, 1}), make_material(Diffuse{.color = 1.0}));
+  constexpr double kRadius = 0.02, kStrength = 100;
+  const Vec3 at(0.3, 0.2, 0);
+  double truth = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 center(i % 10 - 4.5, i / 10 - 4.5, 1);
+    scene.add(sphere(center, kRadius), make_material(Emission{.strength = kStrength}));
+    const double square = glm::dot(center - at, center - at);
+    truth += kStrength * kRadius * kRadius * center.z / std::sqrt(square) / square;
+  }
+  const auto world = path_world(scene);
+  EXPECT_EQ(world->glows().size(), 100u);
+  const IntegratorPtr by_tree = world->model().integrator->prepared(*world);
+  ASSERT_NE(by_tree, nullptr);
+  const Estimate tree = estimate(*world, *by_tree, at + Vec3(0, -0.2, 0.5), at, 10000);
+  EXPECT_NEAR(tree.mean, truth, 3.5 * tree.error);
+  EXPECT_LT(tree.error, 0.03 * truth);
+}
+
 TEST(LightTree, LampsOfAllKindsGiveWhatTheyGiveOneByOne) {
   // Both estimators bring the light of lamps that have a size; rough metal takes it from everywhere.
   for (const MaterialPtr& material :
