@@ -98,8 +98,7 @@ Vec3 Daylight::sun() const {
   if (sun_zenith_ * 180 / kPi >= 93) return Vec3(0);
   const auto arriving = [this](double nanometres) { return sun_power(nanometres); };
   const Vec3 outside = observed(black_body);
-  const double luminance = glm::dot(outside, Vec3(0.2126729, 0.7151522, 0.0721750));
-  return glm::max(Vec3(0), kSolarConstant / luminance * observed(arriving));
+  return cut_to_rec709(kSolarConstant / luminance(outside) * observed(arriving));
 }
 
 }  // namespace lekalo::render

@@ -5,13 +5,14 @@
 
 #include "render/spectra/hero_wavelengths.h"
 #include "render/spectra/illuminants.h"
+#include "render/spectra/observer.h"
 
 namespace lekalo::render {
 
 LampSpectrum::LampSpectrum(std::function<double(double)> power) : power_(std::move(power)) {
   const Vec3 color = color_of([this](double nanometres) { return multiple(nanometres); });
-  scale_ = 1 / glm::dot(color, Vec3(0.2126729, 0.7151522, 0.0721750));
-  color_ = glm::max(Vec3(0), scale_ * color);
+  scale_ = 1 / luminance(color);
+  color_ = cut_to_rec709(scale_ * color);
 }
 
 double LampSpectrum::multiple(double nanometres) const {

@@ -14,7 +14,7 @@ class LampSpectrum {
   // `power` per nanometre, up to a factor; some of it is visible.
   explicit LampSpectrum(std::function<double(double nanometres)> power);
 
-  // Linear Rec.709 of luminance 1, cut to what is not negative: the colour of the lamp where no wavelengths count.
+  // Linear Rec.709 of luminance 1, none of it negative: the colour of the lamp where no wavelengths count.
   const Vec3& color() const { return color_; }
   // Light that has this spectrum and is `colored`, a multiple of color() in RGB, at the wavelengths.
   Spectrum at(const Spectrum& colored, const Wavelengths& wavelengths) const;

@@ -19,6 +19,12 @@ const std::vector<Vec3>& observer();
 // XYZ to linear Rec.709 (ITU-R BT.709-6, white D65).
 Vec3 rec709(const Vec3& xyz);
 
+// Luminance of linear Rec.709.
+double luminance(const Vec3& rgb);
+
+// The nearest thing to a colour of positive luminance that Rec.709 has: cut to what is not negative, and as bright.
+Vec3 cut_to_rec709(const Vec3& rgb);
+
 // Linear Rec.709 of light with so much power per nanometre: of constant power 1 its luminance is the integral of the
 // function y, 106.857.
 Vec3 observed(const std::function<double(double nanometres)>& power);

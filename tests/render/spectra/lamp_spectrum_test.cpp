@@ -60,6 +60,19 @@ TEST(LampSpectrum, HasTheLuminanceOne) {
   }
 }
 
+TEST(LampSpectrum, OfAColourThatIsCutHasTheLuminanceOneToo) {
+  for (const double kelvin : {500.0, 1000.0, 1500.0}) {
+    const LampSpectrum lamp([&](double l) { return black_body_power(kelvin, l); });
+    EXPECT_EQ(lamp.color().z, 0) << kelvin;
+    EXPECT_NEAR(luminance(lamp.color()), 1, 1e-9) << kelvin;
+    const Vec3 back = color_of([&](double l) {
+      const auto near = static_cast<float>(l);
+      return static_cast<double>(lamp.at(rgb(lamp.color()), {{near, near, near, near + 1e-3f}})[0]);
+    });
+    EXPECT_NEAR(luminance(back), 1, 1e-5) << kelvin;
+  }
+}
+
 TEST(LampSpectrum, OfD65IsWhite) {
   const LampSpectrum lamp([](double l) { return illuminant_power("D65", l); });
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(lamp.color()[c], 1, 1e-6);
