@@ -129,11 +129,9 @@ Vec3 Boundary::shading_normal(const Vec3& direction) const {
 }
 
 Spectrum backdrop(const World& world, const Ray& ray) {
-  for (const LightPtr& lamp : world.lamps()) {
-    if (!lamp->is_backdrop()) continue;
-    if (const std::optional<LightSample> seen = lamp->towards(ray.origin, ray.direction))
+  for (const size_t i : world.backdrops())
+    if (const std::optional<LightSample> seen = world.lamps()[i]->towards(ray.origin, ray.direction))
       return static_cast<float>(seen->density) * seen->irradiance;
-  }
   return world.model().background;
 }
 

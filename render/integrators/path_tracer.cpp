@@ -97,7 +97,6 @@ class PathTracer {
         sample_(sample),
         parts_(parts) {
     if (options.spectral) take_four_wavelengths();
-    for (const LightPtr& lamp : world.lamps()) has_backdrop_ = has_backdrop_ || lamp->is_backdrop();
   }
 
   void trace(Ray ray, Hit hit);
@@ -154,7 +153,6 @@ class PathTracer {
   std::vector<std::pair<const Photon*, Spectrum>> landed_;  // what add_caustic found, for the parts
   Spectrum first_matt_;  // share of matt lobes in what the first surface sends on of the path
   bool first_passed_ = false;
-  bool has_backdrop_ = false;
   Origin origin_;
   std::vector<double> choices_;        // of lamps at the present place, and of what glows; without a tree
   HeroWavelengths hero_;               // of a spectral path
@@ -208,7 +206,7 @@ void PathTracer::note_first(const Boundary& seen, const Bsdf& bsdf, const Vec3& 
 void PathTracer::add_surroundings() {
   const Spectrum background = upsampled_light(world_.model().background, colors_);
   if (shown_) {
-    if (!has_backdrop_) add(background);  // else a lamp has brought it
+    if (world_.backdrops().empty()) add(background);  // else a lamp has brought it
     return;
   }
   if (!parts_) {
@@ -224,8 +222,7 @@ void PathTracer::add_surroundings() {
 
 void PathTracer::add_lamps_along(const Ray& ray, double end, const Medium& medium) {
   const std::vector<LightPtr>& lamps = world_.lamps();
-  for (size_t i = 0; i < lamps.size(); ++i) {
-    if (origin_.eye && !lamps[i]->is_backdrop()) continue;
+  for (const size_t i : origin_.eye ? world_.backdrops() : world_.lamps_with_size()) {
     if (origin_.gathered && origin_.sharp && caustics_->of_lamp[i]) continue;  // photons have brought it
     const std::optional<LightSample> lamp = lamps[i]->towards(origin_.point, ray.direction);
     if (!lamp || lamp->irradiance.is_zero()) continue;

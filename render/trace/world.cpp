@@ -368,6 +368,8 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
     ambient_ += light->ambient();
     ambient_by_group_[group] += light->ambient();
     if (light->sample_count() == 0) continue;
+    if (light->has_size()) lamps_with_size_.push_back(lamps_.size());
+    if (light->is_backdrop()) backdrops_.push_back(lamps_.size());
     lamps_.push_back(light);
     lamp_groups_.push_back(group);
   }

@@ -99,6 +99,9 @@ class World final : public CurvatureSource {
   // The lights that are somewhere, and the sum I_a of the ambient ones.
   const std::vector<LightPtr>& lamps() const { return lamps_; }
   const Spectrum& ambient() const { return ambient_; }
+  // Numbers of the lamps that a ray can meet, and of those among them that show themselves in place of the background.
+  const std::vector<size_t>& lamps_with_size() const { return lamps_with_size_; }
+  const std::vector<size_t>& backdrops() const { return backdrops_; }
   // Numbers of groups (LightParts): of each lamp, and the ambient light of each group from 0 on.
   const std::vector<int>& lamp_groups() const { return lamp_groups_; }
   const std::vector<Spectrum>& ambient_by_group() const { return ambient_by_group_; }
@@ -123,6 +126,7 @@ class World final : public CurvatureSource {
   struct Compiled;
   std::shared_ptr<const Model> model_;
   std::vector<LightPtr> lamps_;
+  std::vector<size_t> lamps_with_size_, backdrops_;
   Spectrum ambient_;
   std::vector<int> lamp_groups_;
   std::vector<Spectrum> ambient_by_group_;

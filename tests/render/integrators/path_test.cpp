@@ -463,6 +463,15 @@ TEST(Path, PanoramaWithoutShadowsStaysBehindThings) {
   EXPECT_EQ(estimate(*w, {0, -3, 0}, {0, 1.5, -3}, 32).mean, 0) << "ball in the mirror";
 }
 
+TEST(Path, RaysAskTheLampsThatTheyCanMeet) {
+  SmallScene scene;
+  scene.light(PointLight{}).light(AmbientLight{}).light(SphereLight{}).light(DistantLight{}).light(sky());
+  const auto w = world(scene);
+  EXPECT_EQ(w->lamps().size(), 4u);
+  EXPECT_EQ(w->lamps_with_size(), (std::vector<size_t>{1, 3}));
+  EXPECT_EQ(w->backdrops(), (std::vector<size_t>{3}));
+}
+
 TEST(Path, CaughtShadowsAreThoseOfTheClassicModel) {
   SmallScene scene;
   scene.light(sky());
