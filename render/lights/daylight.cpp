@@ -78,9 +78,7 @@ Daylight::Look Daylight::look(const Vec3& direction) const {
 Vec3 Daylight::radiance(const Vec3& direction) const {
   const Look seen = look(direction);
   const double y = seen.luminance, x = y * seen.x / seen.y, z = y * (1 - seen.x - seen.y) / seen.y;
-  return glm::max(Vec3(0),
-                  Vec3(3.2404542 * x - 1.5371385 * y - 0.4985314 * z, -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
-                       0.0556434 * x - 0.2040259 * y + 1.0572252 * z));
+  return glm::max(Vec3(0), rec709({x, y, z}));
 }
 
 double Daylight::sun_power(double nanometres) const {

@@ -73,10 +73,8 @@ class ConductorMaterial final : public Material {
     if (!is_spectral(wavelengths)) return reflectance.mean();
     Spectrum means;
     for (int i = 0; i < 4; ++i) {
-      const double place = (wavelengths.nanometres[static_cast<size_t>(i)] - kFirstNanometre) / kNanometreStep;
-      const auto below = static_cast<size_t>(std::clamp(place, 0.0, kSpectrumEntries - 2.0));
-      const auto share = static_cast<float>(place - static_cast<double>(below));
-      means.set(i, (1 - share) * means_[below] + share * means_[below + 1]);
+      const double nanometres = wavelengths.nanometres[static_cast<size_t>(i)];
+      means.set(i, static_cast<float>(entry_at(nanometres, [this](size_t entry) { return means_[entry]; })));
     }
     return means;
   }

@@ -21,10 +21,7 @@ double illuminant_power(std::string_view name, double nanometres) {
   const auto found = std::find(illuminant_names().begin(), illuminant_names().end(), name);
   if (found == illuminant_names().end()) throw std::invalid_argument("no illuminant '" + std::string(name) + "'");
   const auto column = static_cast<size_t>(found - illuminant_names().begin());
-  const double place = std::clamp((nanometres - kFirstNanometre) / kNanometreStep, 0.0, kSpectrumEntries - 1.0);
-  const size_t i = std::min(static_cast<size_t>(place), static_cast<size_t>(kSpectrumEntries - 2));
-  const double share = place - static_cast<double>(i);
-  return (1 - share) * table[i][column] + share * table[i + 1][column];
+  return entry_at(nanometres, [column](size_t i) { return table[i][column]; });
 }
 
 double black_body_power(double kelvin, double nanometres) {

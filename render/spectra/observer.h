@@ -1,6 +1,8 @@
 // Spectra as the eye sees them.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -12,6 +14,15 @@ namespace lekalo::render {
 inline constexpr double kFirstNanometre = 380, kNanometreStep = 5;
 inline constexpr int kSpectrumEntries = 81;
 inline double entry_nanometres(int i) { return kFirstNanometre + kNanometreStep * i; }
+
+// At a wavelength, of a table whose entry i is entry(i): constant beyond its ends.
+template <class Entry>
+double entry_at(double nanometres, const Entry& entry) {
+  const double place = std::clamp((nanometres - kFirstNanometre) / kNanometreStep, 0.0, kSpectrumEntries - 1.0);
+  const size_t i = std::min(static_cast<size_t>(place), static_cast<size_t>(kSpectrumEntries - 2));
+  const double share = place - static_cast<double>(i);
+  return (1 - share) * entry(i) + share * entry(i + 1);
+}
 
 // The CIE 1931 functions x, y, z of the 2-degree observer.
 const std::vector<Vec3>& observer();

@@ -171,12 +171,11 @@ LinearUpsampling::LinearUpsampling(const Wavelengths& wavelengths) : spectral_(i
   static const Eigen::MatrixXd table = smoothest_primaries();
   if (!spectral_) return;
   for (int i = 0; i < 4; ++i) {
-    const double place = (wavelengths.nanometres[static_cast<size_t>(i)] - kFirstNanometre) / kNanometreStep;
-    const int below = std::clamp(static_cast<int>(place), 0, kSpectrumEntries - 2);
-    const double share = std::clamp(place - below, 0.0, 1.0);
+    const double nanometres = wavelengths.nanometres[static_cast<size_t>(i)];
     for (int c = 0; c < 3; ++c)
-      primaries_[static_cast<size_t>(c)].set(
-          i, static_cast<float>((1 - share) * table(below, c) + share * table(below + 1, c)));
+      primaries_[static_cast<size_t>(c)].set(i, static_cast<float>(entry_at(nanometres, [c](size_t entry) {
+                                               return table(static_cast<Eigen::Index>(entry), c);
+                                             })));
   }
 }
 

@@ -73,6 +73,14 @@ TEST(LampSpectrum, OfAColourThatIsCutHasTheLuminanceOneToo) {
   }
 }
 
+TEST(Observer, TablesAreStraightBetweenEntriesAndConstantBeyond) {
+  const auto square = [](size_t i) { return static_cast<double>(i * i); };
+  EXPECT_DOUBLE_EQ(entry_at(381, square), 0.2);
+  EXPECT_DOUBLE_EQ(entry_at(395, square), 9);
+  EXPECT_DOUBLE_EQ(entry_at(300, square), 0);
+  EXPECT_DOUBLE_EQ(entry_at(900, square), 6400);
+}
+
 TEST(LampSpectrum, OfD65IsWhite) {
   const LampSpectrum lamp([](double l) { return illuminant_power("D65", l); });
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(lamp.color()[c], 1, 1e-6);
