@@ -1,7 +1,6 @@
 #include "render/spectra/lamp_spectrum.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "render/spectra/hero_wavelengths.h"
 #include "render/spectra/illuminants.h"
@@ -9,14 +8,17 @@
 
 namespace lekalo::render {
 
-LampSpectrum::LampSpectrum(std::function<double(double)> power) : power_(std::move(power)) {
+LampSpectrum::LampSpectrum(const std::function<double(double)>& power) {
+  for (int i = 0; i < kSpectrumEntries; ++i)
+    multiples_.push_back(power(entry_nanometres(i)) / illuminant_power("D65", entry_nanometres(i)));
   const Vec3 color = color_of([this](double nanometres) { return multiple(nanometres); });
-  scale_ = 1 / luminance(color);
-  color_ = cut_to_rec709(scale_ * color);
+  const double scale = 1 / luminance(color);
+  for (double& multiple : multiples_) multiple *= scale;
+  color_ = cut_to_rec709(scale * color);
 }
 
 double LampSpectrum::multiple(double nanometres) const {
-  return scale_ * power_(nanometres) / illuminant_power("D65", nanometres);
+  return entry_at(nanometres, [this](size_t i) { return multiples_[i]; });
 }
 
 Spectrum LampSpectrum::at(const Spectrum& colored, const Wavelengths& wavelengths) const {

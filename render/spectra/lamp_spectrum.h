@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "geometry/describe.h"
 #include "render/spectrum.h"
@@ -12,7 +13,7 @@ namespace lekalo::render {
 class LampSpectrum {
  public:
   // `power` per nanometre, up to a factor; some of it is visible.
-  explicit LampSpectrum(std::function<double(double nanometres)> power);
+  explicit LampSpectrum(const std::function<double(double nanometres)>& power);
 
   // Linear Rec.709 of luminance 1, none of it negative: the colour of the lamp where no wavelengths count.
   const Vec3& color() const { return color_; }
@@ -22,8 +23,7 @@ class LampSpectrum {
  private:
   double multiple(double nanometres) const;  // of D65, luminance 1
 
-  std::function<double(double)> power_;
-  double scale_ = 1;
+  std::vector<double> multiples_;  // at the entries of the tables of spectra (observer.h)
   Vec3 color_{1};
 };
 using LampSpectrumPtr = std::shared_ptr<const LampSpectrum>;

@@ -81,6 +81,19 @@ TEST(Observer, TablesAreStraightBetweenEntriesAndConstantBeyond) {
   EXPECT_DOUBLE_EQ(entry_at(900, square), 6400);
 }
 
+TEST(LampSpectrum, BetweenTheEntriesOfItsTableIsNearThePower) {
+  const auto power = [](double l) { return black_body_power(2700, l); };
+  const LampSpectrum lamp(power);
+  const Spectrum of_table = lamp.at(rgb(lamp.color()), {{402.5f, 502.5f, 602.5f, 702.5f}});
+  for (int i = 0; i < 4; ++i) {
+    const double l = 402.5 + 100 * i;
+    EXPECT_NEAR(of_table[i] / of_table[1],
+                power(l) / illuminant_power("D65", l) / (power(502.5) / illuminant_power("D65", 502.5)),
+                2e-3 * of_table[i] / of_table[1])
+        << l;
+  }
+}
+
 TEST(LampSpectrum, OfD65IsWhite) {
   const LampSpectrum lamp([](double l) { return illuminant_power("D65", l); });
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(lamp.color()[c], 1, 1e-6);
