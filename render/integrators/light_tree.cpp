@@ -12,15 +12,12 @@ using namespace geometry;
 
 namespace {
 
-// Share of a choice one by one that does not look at how bright lamps seem.
-constexpr double kBlindChoice = 0.1;
 // Lamps of a leaf at most.
 constexpr size_t kLeafLamps = 8;
 // Light that leaves a lamp at an angle counts at least as this much of that along its axis: spots are full to the rim.
 constexpr double kLeastCosine = 0.1;
 // Of angles, so that rounding excludes nothing.
 constexpr double kSlack = 1e-6;
-constexpr double kBelowOne = 1 - 0x1p-53;
 
 // A node is split where its ball's radius is more than this times the distance of its middle.
 constexpr double kNear = 0.5;
@@ -234,23 +231,6 @@ double LightTree::brings(size_t number, const Vec3& point) const {
 void LightTree::add_lamps(const Node& leaf, const Vec3& point, std::vector<Candidate>& list) const {
   for (size_t i = leaf.first; i < leaf.first + leaf.count; ++i)
     list.push_back({-1, numbers_[i], brings(numbers_[i], point)});
-}
-
-// Weights made probabilities.
-void LightTree::share_out(std::vector<Candidate>& list) {
-  double sum = 0;
-  for (const Candidate& one : list) sum += one.probability;
-  const double n = static_cast<double>(list.size());
-  for (Candidate& one : list)
-    one.probability = sum > 0 ? (1 - kBlindChoice) * one.probability / sum + kBlindChoice / n : 1 / n;
-}
-
-// Which of them a random number in [0, 1) falls in; what is left of it, in [0, 1) anew.
-const LightTree::Candidate& LightTree::chosen_of(const std::vector<Candidate>& list, double& random) {
-  size_t i = 0;
-  while (i + 1 < list.size() && random >= list[i].probability) random -= list[i++].probability;
-  random = std::min(random / list[i].probability, kBelowOne);
-  return list[i];
 }
 
 std::vector<LightTree::Candidate> LightTree::candidates(const Vec3& point) const {

@@ -6,6 +6,7 @@
 // left and the near lamps are weighed together, and below a chosen node one way down is drawn.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,6 +20,8 @@ namespace lekalo::render {
 // With more lamps and glowing things than these the tree pays: measured in seconds for a picture, from between 16 and
 // 64 balls on, and from between 64 and 200 points on.
 inline constexpr size_t kManyLamps = 32;
+
+inline constexpr double kBelowOne = 1 - 0x1p-53;
 
 class LightTree {
  public:
@@ -63,8 +66,6 @@ class LightTree {
   std::vector<Candidate> candidates(const Vec3& point) const;
   std::vector<Candidate> lamps_of(const Node& leaf, const Vec3& point) const;
   void add_lamps(const Node& leaf, const Vec3& point, std::vector<Candidate>& list) const;
-  static void share_out(std::vector<Candidate>& list);
-  static const Candidate& chosen_of(const std::vector<Candidate>& list, double& random);
 
   const World& world_;
   double least_square_;          // of distances
@@ -73,6 +74,26 @@ class LightTree {
   std::vector<size_t> numbers_;  // of lamps in the tree, those of a leaf together
   std::vector<size_t> apart_;    // lamps in no tree: the sky, and what is not known to lie somewhere
 };
+
+// Probabilities of what is listed, made of weights in the field `probability`.
+template <class Candidate>
+void share_out(std::vector<Candidate>& list) {
+  constexpr double kBlindChoice = 0.1;  // share of the choice that does not look at the weights
+  double sum = 0;
+  for (const Candidate& one : list) sum += one.probability;
+  const double n = static_cast<double>(list.size());
+  for (Candidate& one : list)
+    one.probability = sum > 0 ? (1 - kBlindChoice) * one.probability / sum + kBlindChoice / n : 1 / n;
+}
+
+// Which of them a random number in [0, 1) falls in; what is left of it, in [0, 1) anew.
+template <class Candidate>
+const Candidate& chosen_of(const std::vector<Candidate>& list, double& random) {
+  size_t i = 0;
+  while (i + 1 < list.size() && random >= list[i].probability) random -= list[i++].probability;
+  random = std::min(random / list[i].probability, kBelowOne);
+  return list[i];
+}
 
 // Null for a world of few lamps.
 std::shared_ptr<const LightTree> make_light_tree(const World& world);

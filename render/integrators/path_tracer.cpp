@@ -26,8 +26,6 @@ namespace {
 
 // Walks in milky substances live whole until their share is the inverse of this.
 constexpr double kDimWalk = 5;
-// Share of the choice of lamps that does not look at how bright they seem.
-constexpr double kBlindChoice = 0.1;
 
 double power_heuristic(double own, double other) {
   const double ratio = other / own;
@@ -109,9 +107,9 @@ class PathTracer {
     bool in_medium = false;  // of scattering, which asks for no glow
     bool gathered = false;   // the last place that spread the path has counted its photons: a surface, no substance
     Vec3 point{0};
-    double density = 0;           // of the direction
-    double gone = 0;              // way to the present ray's origin
-    std::vector<double> choices;  // of each lamp, and of what glows; without a tree
+    double density = 0;                      // of the direction
+    double gone = 0;                         // way to the present ray's origin
+    std::vector<LightTree::Choice> choices;  // of each lamp, and of what glows; without a tree
   };
 
   // Light at the end of the path; `straight`: from a lamp or glowing thing to the first surface.
@@ -128,7 +126,7 @@ class PathTracer {
   void weigh_lamps(const Vec3& point);
   // That of a number at the place where the ray was drawn.
   double choice_at_origin(size_t number) const {
-    return tree_ ? tree_->probability(origin_.point, number) : origin_.choices[number];
+    return tree_ ? tree_->probability(origin_.point, number) : origin_.choices[number].probability;
   }
   void add_glow(const LightTree::Choice& chosen, const Boundary& seen, const Bsdf& bsdf, const Media& media,
                 const Vec2& square);
@@ -154,12 +152,12 @@ class PathTracer {
   Spectrum first_matt_;  // share of matt lobes in what the first surface sends on of the path
   bool first_passed_ = false;
   Origin origin_;
-  std::vector<double> choices_;        // of lamps at the present place, and of what glows; without a tree
-  HeroWavelengths hero_;               // of a spectral path
-  Wavelengths colors_ = kPrimaries;    // of the lanes
-  Wavelengths wavelengths_ = kYellow;  // of refraction
-  LinearUpsampling of_photons_;        // into the lanes
-  Spectrum share_ = kWhite;            // of the light at the end of the path that reaches the eye
+  std::vector<LightTree::Choice> choices_;  // of lamps at the present place, and of what glows; without a tree
+  HeroWavelengths hero_;                    // of a spectral path
+  Wavelengths colors_ = kPrimaries;         // of the lanes
+  Wavelengths wavelengths_ = kYellow;       // of refraction
+  LinearUpsampling of_photons_;             // into the lanes
+  Spectrum share_ = kWhite;                 // of the light at the end of the path that reaches the eye
   bool one_wavelength_ = false;
   bool shown_ = true;  // the path is an image in mirrors and smooth boundaries
   int bounces_ = 0, scatterings_ = 0;
@@ -243,26 +241,24 @@ std::optional<LightTree::Choice> PathTracer::choose_lamp(const Vec3& point, doub
   if (tree_) return tree_->choose(point, random);
   weigh_lamps(point);
   if (choices_.empty()) return std::nullopt;
-  size_t i = 0;
-  while (i + 1 < choices_.size() && random >= choices_[i]) random -= choices_[i++];
-  return LightTree::Choice{i, choices_[i]};
+  return chosen_of(choices_, random);
 }
 
 void PathTracer::weigh_lamps(const Vec3& point) {
   const std::vector<LightPtr>& lamps = world_.lamps();
   const std::vector<World::Glow>& glows = world_.glows();
-  choices_.assign(lamps.size() + glows.size(), 1);
-  if (choices_.size() < 2) return;
-  double sum = 0;
+  choices_.clear();
+  if (lamps.size() + glows.size() == 1) {
+    choices_.push_back({0, 1});
+    return;
+  }
   for (size_t i = 0; i < lamps.size(); ++i) {
-    choices_[i] = lamps[i]->sample_all(point, Vec2(0.5)).irradiance.largest();
-    if (!std::isfinite(choices_[i])) choices_[i] = 0;
-    sum += choices_[i];
+    const double brings = lamps[i]->sample_all(point, Vec2(0.5)).irradiance.largest();
+    choices_.push_back({i, std::isfinite(brings) ? brings : 0});
   }
   for (size_t i = 0; i < glows.size(); ++i)
-    sum += choices_[lamps.size() + i] = glows[i].brightness * cone_of(glows[i], point).solid_angle();
-  const double n = static_cast<double>(choices_.size());
-  for (double& choice : choices_) choice = sum > 0 ? (1 - kBlindChoice) * choice / sum + kBlindChoice / n : 1 / n;
+    choices_.push_back({lamps.size() + i, glows[i].brightness * cone_of(glows[i], point).solid_angle()});
+  share_out(choices_);
 }
 
 void PathTracer::add_lamp(const Boundary& seen, const Bsdf& bsdf, const Media& media, const Vec2& choice,
