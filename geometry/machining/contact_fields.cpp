@@ -10,8 +10,6 @@ namespace lekalo::geometry {
 
 namespace {
 
-Vec3 vec(const Triple<double>& a) { return {a.x, a.y, a.z}; }
-
 // Of the largest order that enclosures and derivatives of the surface and the line's image leave.
 CurveProperties properties_on(const SurfaceContact& contact, const Curve& on) {
   CurveProperties properties = properties_of(on);

@@ -12,8 +12,6 @@ constexpr int kPlaces = 64;
 // Sines of angles below this are 0; what is beyond a limit by this part lies on it.
 constexpr double kNoAngle = 1e-9;
 
-Vec3 vec(const Triple<double>& a) { return {a.x, a.y, a.z}; }
-
 const char* field_of(const ToolAxis& axis) {
   return axis.kind == ToolAxis::Kind::fixed ? "axis" : axis.kind == ToolAxis::Kind::lead ? "lead" : "elevation";
 }

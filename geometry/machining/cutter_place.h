@@ -27,6 +27,7 @@
 #include "geometry/curves/operations/parameter_line.h"
 #include "geometry/expression/scalar_law.h"
 #include "geometry/machining/cutter.h"
+#include "geometry/queries/differential/tool_axis.h"
 
 namespace lekalo::geometry {
 
@@ -41,6 +42,8 @@ Triple<T> unit(const Triple<T>& a) {
   return (T(1) / length(a)) * a;
 }
 
+inline Vec3 vec(const Triple<double>& a) { return {a.x, a.y, a.z}; }
+
 // Which way the axis leads.
 struct ToolAxis {
   enum class Kind { fixed, lead, elevation };
@@ -53,8 +56,8 @@ struct ToolAxis {
     using std::cos;
     using std::sin;
     if (kind == Kind::fixed) return {T(direction.x), T(direction.y), T(direction.z)};
-    const T b = angle(t), c = cos(b), s = sin(b);
-    return kind == Kind::lead ? c * n + s * feed : c * cross(feed, n) + s * n;
+    const T b = angle(t);
+    return kind == Kind::lead ? cos(b) * n + sin(b) * feed : tool_axis(feed, n, b);
   }
 };
 

@@ -10,8 +10,6 @@ namespace lekalo::geometry {
 
 namespace {
 
-Vec3 vec(const Triple<double>& a) { return {a.x, a.y, a.z}; }
-
 // Where the axis runs through the curve it is the generatrix.
 double side_of(const Fields& f, const Cutter& cutter) {
   const std::string& side = f.text("side");

@@ -15,8 +15,6 @@ constexpr int kPlaces = 128;
 // Cosines below this are 0: the section runs along the sharp rim, which bends as its circle does.
 constexpr double kAlong = 1e-7;
 
-Vec3 vec(const Triple<double>& a) { return {a.x, a.y, a.z}; }
-
 // The curvatures of the cutter: k_1 in the direction `meridian` of the tangent plane, k_2 across.
 struct CutterBend {
   Vec3 meridian;

@@ -160,8 +160,7 @@ bool runs_back(const PathRow& row, const Vec3& way) {
 
 Vec3 way_of(const PathRow& row) {
   const CurvePtr& image = row.contact.line.image;
-  const Triple<double> way = row.contact.at(image->domain().hi).contact - row.contact.at(image->domain().lo).contact;
-  return {way.x, way.y, way.z};
+  return vec(row.contact.at(image->domain().hi).contact - row.contact.at(image->domain().lo).contact);
 }
 
 // The nearest places of rows before and after that of a row: several rows may lie at one place. Rows are in order.

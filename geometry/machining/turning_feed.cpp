@@ -11,6 +11,7 @@ namespace {
 
 constexpr size_t kMaxFeedPoints = 20000;
 constexpr int kEvaluations = 200000;
+constexpr int kHalvings = 200;  // at most: until no number is left between
 
 std::vector<double> breaks_of(const Curve& curve) {
   std::vector<double> breaks;
@@ -19,18 +20,18 @@ std::vector<double> breaks_of(const Curve& curve) {
   return breaks;
 }
 
-// The parameter at which x is reached, by halving: x runs in one direction over the domain.
-double parameter_at(const Curve& profile, double x) {
+}  // namespace
+
+double parameter_at_x(const Curve& profile, double x) {
   Interval t = profile.domain();
   const bool grows = profile.point(t.hi).x > profile.point(t.lo).x;
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < kHalvings; ++k) {
     const double middle = t.middle();
+    if (middle <= t.lo || middle >= t.hi) break;
     ((profile.point(middle).x < x) == grows ? t.lo : t.hi) = middle;
   }
   return t.middle();
 }
-
-}  // namespace
 
 Measured removed_volume(const Curve& before, const Curve& after) {
   std::vector<double> breaks = breaks_of(before);
@@ -54,7 +55,7 @@ std::vector<FeedPoint> feed_points(const Curve& profile, double feed, double all
   std::vector<FeedPoint> points;
   for (double at = forward ? x.lo : x.hi;;) {
     FeedPoint one;
-    one.t = parameter_at(profile, at);
+    one.t = parameter_at_x(profile, at);
     const CurveJet jet = profile.evaluate(one.t, 1);
     one.point = jet.d[0];
     one.slope = std::atan2(-way * jet.d[1].y * (jet.d[1].x < 0 ? -1 : 1), std::abs(jet.d[1].x));
@@ -63,7 +64,7 @@ std::vector<FeedPoint> feed_points(const Curve& profile, double feed, double all
     one.step = std::min(feed * std::cos(one.slope), left);
     // The profile may get steeper before the next point.
     for (int k = 0; k < 40; ++k) {
-      const Vec3 next = profile.point(parameter_at(profile, at + way * one.step));
+      const Vec3 next = profile.point(parameter_at_x(profile, at + way * one.step));
       if (glm::length(next - one.point) <= feed * (1 + 1e-9)) break;
       one.step *= 0.9;
     }

@@ -52,15 +52,7 @@ class GraphOverX {
   }
 
   // s(x); outside of the range the nearer end.
-  double parameter(double x) const {
-    Interval s = curve_->domain();
-    for (int k = 0; k < 200 && s.lo < s.hi; ++k) {
-      const double middle = s.middle();
-      if (middle <= s.lo || middle >= s.hi) break;
-      (direction_ * (curve_->point(middle).x - x) < 0 ? s.lo : s.hi) = middle;
-    }
-    return s.middle();
-  }
+  double parameter(double x) const { return parameter_at_x(*curve_, x); }
   // Somewhat wider than what x in the interval needs: points are rounded.
   Interval parameter(const Interval& x) const {
     const double slack = 1e-13 * range().width();

@@ -25,6 +25,9 @@ struct TurningPlan {
   std::vector<FeedPoint> feed_points;  // none where no feed is given
 };
 
+// Where x is reached on a profile whose x runs in one direction; beyond it the nearer end.
+double parameter_at_x(const Curve& profile, double x);
+
 // pi int (r_before^2 - r_after^2) dx; both have the same parameter and the same x at it.
 Measured removed_volume(const Curve& before, const Curve& after);
 

@@ -12,7 +12,6 @@
 #include "geometry/surfaces/analytic/sphere.h"
 #include "geometry/surfaces/analytic/torus.h"
 #include "tests/geometry/curves/curve_checks.h"
-#include "tests/geometry/machining/triples.h"
 
 namespace lekalo::geometry {
 namespace {

@@ -9,7 +9,6 @@
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/surfaces/analytic/sphere.h"
 #include "geometry/surfaces/analytic/torus.h"
-#include "tests/geometry/machining/triples.h"
 
 namespace lekalo::geometry {
 namespace {
