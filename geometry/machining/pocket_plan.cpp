@@ -113,7 +113,7 @@ PocketPlan pocket_plan(const PocketContours& contours, const PocketTools& tools,
   plan.region = inset_region(*contours.outer, contours.islands, tools.radius + tools.allowance.lo,
                              tools.radius + tools.allowance.hi);
   plan.finishing = inset_region(*contours.outer, contours.islands, tools.finishing_radius,
-                                tools.finishing_radius + kFinishing * tools.allowance.width());
+                                tools.finishing_radius + kFinishing * tools.allowance.width(), "finishing_radius");
   plan.split = trapezoid_split(in_split_coordinates(plan.region, plan.to_plane));
   if (plan.split.trapezoids.size() > kMaxTrapezoids)
     throw FieldError("allowance", fmt::format("the pocket falls into {} trapezoids", plan.split.trapezoids.size()),

@@ -27,6 +27,24 @@ constexpr double kMaxChords = 200;
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 Vec2 left_of(const Vec2& along) { return Vec2(-along.y, along.x) / glm::length(along); }
 
+// Sides that only touch do not cross.
+void check_crossings(const Polygon2& polygon, const std::string& field) {
+  const size_t n = polygon.size();
+  const auto side_of = [](const Vec2& a, const Vec2& b, const Vec2& p) {
+    const double beside = cross(b - a, p - a) / glm::length(b - a);
+    return std::abs(beside) <= kSamePlace * glm::length(b - a) ? 0.0 : beside;
+  };
+  for (size_t i = 0; i < n; ++i)
+    for (size_t j = i + 2; j < n; ++j) {
+      const Vec2 &a = polygon[i], &b = polygon[i + 1], &c = polygon[j], &d = polygon[(j + 1) % n];
+      const double to_c = side_of(a, b, c), to_d = side_of(a, b, d);
+      if (!(to_c * to_d < 0) || !(side_of(c, d, a) * side_of(c, d, b) < 0)) continue;
+      const Vec2 at = glm::mix(c, d, to_c / (to_c - to_d));
+      throw FieldError(field, fmt::format("the contour crosses itself near ({:.6g}, {:.6g})", at.x, at.y),
+                       "a contour without loops");
+    }
+}
+
 Polygon2 polygon_of(const Curve& curve, const std::string& field, double tolerance, double height) {
   if (!curve.is_closed()) throw FieldError(field, "the curve is not closed", "a contour ends where it begins");
   const NurbsCurve polyline = polyline_of_curve(curve, tolerance);
@@ -40,6 +58,7 @@ Polygon2 polygon_of(const Curve& curve, const std::string& field, double toleran
   }
   if (polygon.size() > 1 && glm::length(polygon.front() - polygon.back()) <= kSamePlace * size) polygon.pop_back();
   if (polygon.size() < 3) throw FieldError(field, "the contour encloses nothing");
+  if (polygon.size() <= kMaxSides) check_crossings(polygon, field);
   return polygon;
 }
 
@@ -258,7 +277,8 @@ std::vector<Polygon2> contours_of(const Curve& outer, const std::vector<CurvePtr
 
 }  // namespace
 
-PocketRegion inset_region(const Curve& outer, const std::vector<CurvePtr>& islands, double nearest, double farthest) {
+PocketRegion inset_region(const Curve& outer, const std::vector<CurvePtr>& islands, double nearest, double farthest,
+                          const char* field_of_distance) {
   const double band = farthest - nearest, size = bounds(outer).diameter();
   std::vector<Polygon2> contours = contours_of(outer, islands, 0.25 * band);
   for (Polygon2& contour : contours) contour = moved_left(contour, 0.5 * (nearest + farthest), 0.25 * band);
@@ -266,7 +286,7 @@ PocketRegion inset_region(const Curve& outer, const std::vector<CurvePtr>& islan
   // Slivers that rounding leaves where loops touch.
   std::erase_if(region.rims, [&](const Polygon2& rim) { return std::abs(signed_area(rim)) <= 1e-9 * size * size; });
   if (region.rims.empty() || !(area(region) > 0))
-    throw FieldError("allowance", "nothing is left of the pocket at this distance from its contours",
+    throw FieldError(field_of_distance, "nothing is left of the pocket at this distance from its contours",
                      "take a smaller allowance or tool");
   return region;
 }

@@ -79,6 +79,15 @@ TEST(PocketRegions, DropsWhatIsTooNarrow) {
   EXPECT_THROW(inset_region(rooms, {}, 2.1, 2.2), FieldError);
 }
 
+TEST(PocketRegions, HaveContoursThatDoNotCrossThemselves) {
+  const std::vector<Vec3> loops = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 4, 0}};
+  const std::vector<Vec3> touching = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}};
+  const CurvePtr crossed = std::make_shared<NurbsCurve>(polyline(loops, true));
+  EXPECT_THROW(inset_region(*crossed, {}, 0.1, 0.2), FieldError);
+  EXPECT_THROW(inset_region(*rectangle(-5, -5, 20, 20), {crossed}, 0.1, 0.2), FieldError);
+  EXPECT_EQ(inset_region(polyline(touching, true), {}, 0.1, 0.2).rims.size(), 2u);
+}
+
 TEST(PocketRegions, JoinsIslandsThatAreNear) {
   const PocketRegion region =
       inset_region(*rectangle(-5, -5, 10, 10), {circle(-1.2, 0, 1), circle(1.2, 0, 1)}, 0.4, 0.42);
