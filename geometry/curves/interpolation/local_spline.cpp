@@ -176,8 +176,10 @@ TypeDeclaration local_spline_type() {
                 "it takes, where pieces meet, the values of parabolas by least squares through the points of the two "
                 "pieces beside")
       .field("passes", integer().between(0, 100000), "how often points are replaced by points of the curve", "0")
-      .optional("corridor", numbers(),
-                "how far each coordinate of a point may move in passes: one length, or one for each point")
+      .optional(
+          "corridor", numbers(),
+          "how far each coordinate of a point may move in passes: one length, or one for each point; with 'spans' "
+          "one for each place where pieces meet, ends of an open curve among them")
       .shows({"control_polygon", "knots"})
       .built_by([](const Fields& f) {
         std::vector<Vec3> points = f.points("points");
