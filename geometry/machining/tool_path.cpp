@@ -12,8 +12,6 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Moves join to rounding, of the size of the path.
-constexpr double kJoint = 1e-9;
 constexpr int kTried = 1024;       // places of a path
 constexpr double kBeside = 1e-10;  // of the domain: how far from a break both sides are looked at
 constexpr double kJump = 1e-6;     // of the curve's size: places so near to each other are the same
@@ -24,7 +22,7 @@ CurvePtr joined(const std::vector<ToolMove>& moves) {
   if (moves.size() == 1) return moves.front().curve;
   std::vector<CurvePtr> curves;
   for (const ToolMove& move : moves) curves.push_back(move.curve);
-  return std::make_shared<CompositeCurve>(std::move(curves), false, kJoint);
+  return std::make_shared<CompositeCurve>(std::move(curves), false, kMovesMeet);
 }
 
 }  // namespace

@@ -62,6 +62,9 @@ struct CoverageBand {
   std::function<double(double)> diameter;
 };
 
+// Moves meet to rounding: this part of the size of the path.
+inline constexpr double kMovesMeet = 1e-9;
+
 class ToolPath final : public Curve {
  public:
   // Each move begins where the one before ends. The parameter is that of the only move, or grows by that of each from

@@ -9,13 +9,11 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Moves meet to this part of the cutter.
-constexpr double kMeet = 1e-7;
-
 class Program {
  public:
-  Program(const Cutter& cutter, const Vec3& start, const Vec3& axis)
-      : cutter_(cutter), at_{start, axis, std::nullopt} {}
+  Program(const Cutter& cutter, const Vec3& start, const Vec3& axis) : cutter_(cutter), at_{start, axis, std::nullopt} {
+    box_.include(start);
+  }
 
   void move_to(const Vec3& point, ToolMove::Kind kind, std::optional<double> feed, const std::string& field) {
     if (!(glm::length(point - at_.reference) > 0)) throw FieldError(field, "the move leads nowhere", "leave it out");
@@ -23,16 +21,19 @@ class Program {
       return CutterPose{(1 - t) * from + t * to, axis, std::nullopt};
     };
     moves_.push_back({kind, std::make_shared<Segment>(at_.reference, point), pose, feed});
+    box_.include(point);
     at_.reference = point;
   }
 
   void follow(const ToolPath& path, std::optional<double> feed, const std::string& field) {
     if (path.cutter() != cutter_) throw FieldError(field, "the path is one of another cutter", "the same cutter");
     const Vec3 begin = path.point(path.domain().lo);
-    if (!(glm::length(path.pose(path.domain().lo).reference - begin) <= kMeet * cutter_.radius))
+    box_.include(bounds(path));
+    const double near = kMovesMeet * box_.diameter();
+    if (!(glm::length(path.pose(path.domain().lo).reference - begin) <= near))
       throw FieldError(field, "the path is not that of the middle of the cutter's end", "point: reference");
     const double gap = glm::length(begin - at_.reference);
-    if (!(gap <= kMeet * cutter_.radius))
+    if (!(gap <= near))
       throw FieldError(
           field,
           fmt::format("the path begins at ({:.6g}, {:.6g}, {:.6g}), {:.6g} from the end of the move before", begin.x,
@@ -53,6 +54,7 @@ class Program {
  private:
   Cutter cutter_;
   CutterPose at_;
+  Box3 box_;  // of all moves
   std::vector<ToolMove> moves_;
 };
 

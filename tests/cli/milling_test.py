@@ -109,6 +109,13 @@ class Milling(ProgramTest):
             self.refuse("not that of the middle of the cutter's end", path % point, program)
         self.accept(path % "reference", program)
 
+    def test_moves_meet(self):
+        cutter = "cutter: { radius: 1, corner_radius: 1, length: 3 }"
+        path = "path: { type: cutter_path, of: { type: plane, size: [4, 4] }, v: 0, %s }" % cutter
+        program = "program: { type: tool_program, start: [-2, 0, 1], moves: [{ to: [-2, %s, 0] }, { path: path }], " + cutter + " }"
+        self.refuse("5e-08 from the end of the move before", path, program % "5e-8")
+        self.accept(path, program % "1e-9")
+
     def test_corners(self):
         table, bent = "table: { type: plane, size: [4, 4] }", "{ type: polyline, points: [[0, 0], [1, 0], [1, 1]] }"
         contour = "path: {{ type: flank_path, of: {{ type: rectangle, size: [8, 5]{} }}, side: {}, cutter: {{ radius: 1, length: 4 }}, h: 0 }}"
