@@ -11,7 +11,7 @@ void declare_contact(TypeDeclaration& type);
 // Without its line, but for the surface.
 SurfaceContact read_contact(const Fields& fields);
 
-// Throws FieldError (field `gouging`) where the cutter cuts into the part and the fields do not allow it.
+// Throws FieldError (field `cutter`) where the cutter cuts into the part and the fields do not allow it.
 void check_gouging(const Fields& fields, const ToolPathFacts::Bend& bend);
 
 // Throws FieldError (field `of`) where the cutter would jump at a corner of its line. A path that does not end where it

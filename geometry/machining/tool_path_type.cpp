@@ -31,8 +31,7 @@ struct Joining {
 
 class PathOfRows {
  public:
-  PathOfRows(const RowFamily& family, const Joining& joining, double size)
-      : family_(family), joining_(joining), size_(size) {}
+  PathOfRows(const Joining& joining, double size) : joining_(joining), size_(size) {}
 
   // Rows in order; those of one place follow one another.
   void add(PathRow row, bool turned) {
@@ -96,7 +95,6 @@ class PathOfRows {
         contact_move(contact, SurfaceCurve(contact.line.of, contact.line.image), Kind::link, PathPoint::reference));
   }
 
-  const RowFamily& family_;
   Joining joining_;
   double size_;
   std::vector<ToolMove> moves_;
@@ -203,7 +201,7 @@ ToolPath tool_path(const Fields& f) {
   const SurfaceContact contact = read_contact(f);
   const RowFamily family = read_family(f, contact);
   const Joining joining = read_joining(f, contact);
-  PathOfRows path(family, joining, contact.cutter.radius);
+  PathOfRows path(joining, contact.cutter.radius);
   Vec3 way(0);
   int index = 0;
   for (const double place : row_places(family, read_spacing(f))) {

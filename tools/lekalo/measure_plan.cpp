@@ -59,7 +59,7 @@ ordered_json json_of(const RoutePlan& plan) {
                       {"reduced_edges", edges_of(plan.reduced)}};
   if (plan.postman) add_postman(out, *plan.postman);
   out["walk"] = walk;
-  out["steps"] = walk.size();
+  out["visits"] = walk.size();
   out["ratio"] = static_cast<double>(walk.size()) / static_cast<double>(plan.graph.size());
   out["walk_weight"] = length;
   out["repeated_share"] = length > 0 ? repeated / length : 0.0;
