@@ -1,8 +1,10 @@
 #include "geometry/bodies/booleans/coincidence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "geometry/bodies/booleans/same_sweep.h"
 #include "geometry/bodies/constructions/profile.h"
 #include "geometry/bodies/primitives/construct.h"
 #include "geometry/curves/on_surfaces/projected_image.h"
@@ -226,9 +228,14 @@ class Tracking {
     return known_->kind != CanonicalSurface::Kind::torus && std::hypot(q.x, q.y) <= 1e-9 * (1 + std::abs(q.z));
   }
 
-  // On the axis every angle is as good: the limit along the curve is meant.
+  // On the axis every angle is as good: the limit along the curve is meant, that of the tangent where there is one.
   void settle_ends() {
     const auto limit = [&](double end, double inner, const Vec2& near) {
+      const Vec3 along = (inner > end ? 1.0 : -1.0) * (known_->to_local * curve_->evaluate(end, 1).d[1]);
+      if (std::hypot(along.x, along.y) > 1e-6 * glm::length(along)) {
+        const double turn = known_->side(known_->local(curve_->point(inner)).z);
+        return unwrapped({std::atan2(turn * along.y, turn * along.x), near.y}, near);
+      }
       const double h = 1e-4 * (inner - end);
       Vec2 values[3];
       for (int k = 0; k < 3; ++k) values[k] = unwrapped(*raw(end + (k + 1) * h, near), near);
@@ -270,28 +277,30 @@ std::vector<Interval> stretches_of(const Curve& curve) {
   return result;
 }
 
-// A straight line where the function is one; a coordinate that is constant is so exactly.
+// A straight line where the function is one; a coordinate that is constant is so exactly. At its ends, which may be
+// poles, the function is less sure than between them.
 Curve2Ptr simple_image(const std::function<Vec3(double)>& image, const std::vector<Interval>& stretches, double size) {
   constexpr double kAgree = 1e-13;
   const Interval t{stretches.front().lo, stretches.back().hi};
-  const Vec3 begin = image(t.lo), end = image(t.hi);
   constexpr int kPlaces = 37;
-  double bend = 0;
+  std::array<Vec3, kPlaces + 1> places;
+  for (int k = 0; k <= kPlaces; ++k) places[k] = image(k == kPlaces ? t.hi : t.lo + t.width() * k / kPlaces);
+  const Vec3 middle = places[kPlaces / 2];
   Vec2 change(0);
-  for (int k = 1; k < kPlaces; ++k) {
-    const double part = static_cast<double>(k) / kPlaces;
-    const Vec3 at = image(t.lo + part * t.width());
-    bend = std::max(bend, glm::length(at - (begin + part * (end - begin))));
-    change = glm::max(change, Vec2(glm::abs(at - begin)));
-  }
-  change = glm::max(change, Vec2(glm::abs(end - begin)));
+  for (int k = 1; k < kPlaces; ++k) change = glm::max(change, Vec2(glm::abs(places[k] - middle)));
   const auto settled = [&](Vec3 at) {
     for (int axis = 0; axis < 2; ++axis)
-      if (change[axis] <= kAgree * size) at[axis] = begin[axis];
+      if (change[axis] <= kAgree * size) at[axis] = middle[axis];
     at.z = 0;
     return at;
   };
-  if (bend <= kAgree * size) return image_line(t, Vec2(begin), Vec2(settled(end)));
+  const Vec3 begin = settled(places[0]), end = settled(places[kPlaces]);
+  double bend = 0;
+  for (int k = 1; k < kPlaces; ++k) {
+    const double part = static_cast<double>(k) / kPlaces;
+    bend = std::max(bend, glm::length(settled(places[k]) - (begin + part * (end - begin))));
+  }
+  if (bend <= kAgree * size) return image_line(t, Vec2(begin), Vec2(end));
   for (const double tolerance : {kAgree, 10 * kAgree, 100 * kAgree})
     if (auto result =
             polynomial_approximation([&](double at) { return settled(image(at)); }, stretches, tolerance * size))
@@ -302,8 +311,6 @@ Curve2Ptr simple_image(const std::function<Vec3(double)>& image, const std::vect
 }  // namespace
 
 Curve2Ptr simple_image(const Surface& surface, const Curve2Ptr& image) {
-  for (const CurvePiece& piece : image->pieces())
-    if (piece.is_rational()) return image;
   // In a pole an image jumps: at an end its limit is meant.
   const double size = parameter_size(surface);
   const Interval t = image->domain();
@@ -315,6 +322,10 @@ Curve2Ptr simple_image(const Surface& surface, const Curve2Ptr& image) {
   const auto at_begin = limit(t.lo, step), at_end = limit(t.hi, -step);
   const bool jumps_at_begin = glm::length(at_begin(t.lo) - image->point(t.lo)) > 1e-6 * size,
              jumps_at_end = glm::length(at_end(t.hi) - image->point(t.hi)) > 1e-6 * size;
+  const std::vector<CurvePiece> pieces = image->pieces();
+  if (!jumps_at_begin && !jumps_at_end &&
+      std::any_of(pieces.begin(), pieces.end(), [](const CurvePiece& piece) { return piece.is_rational(); }))
+    return image;
   const auto point = [&](double at) {
     if (jumps_at_begin && at < t.lo + step) return at_begin(at);
     if (jumps_at_end && at > t.hi - step) return at_end(at);
@@ -328,7 +339,7 @@ std::optional<bool> have_same_equation(const SurfacePtr& a, const SurfacePtr& b,
                                        double tolerance) {
   if (is_same(a, b)) return true;
   const auto of_a = equation_of(a), of_b = equation_of(b);
-  if (!of_a || !of_b) return std::nullopt;
+  if (!of_a || !of_b) return are_one_sweep(a, b, tolerance) ? std::optional(true) : std::nullopt;
   if ((of_a->kind == CanonicalSurface::Kind::plane) != (of_b->kind == CanonicalSurface::Kind::plane)) return false;
   for (const Vec3& p : points_of(*of_a, near, size))
     if (!(distance_from(*of_b, p) <= tolerance)) return false;

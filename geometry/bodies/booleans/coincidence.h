@@ -6,8 +6,8 @@
 
 namespace lekalo::geometry {
 
-// Whether two surfaces that are known by their equations, or are one, have the same equation within a length; nothing
-// where the equations are not known. `size` is that of what lies on them.
+// Whether two surfaces that are known by their equations, are one, or are the same sweep (same_sweep.h) have the same
+// equation within a length; nothing where the equations are not known. `size` is that of what lies on them.
 std::optional<bool> have_same_equation(const SurfacePtr& a, const SurfacePtr& b, const Vec3& near, double size,
                                        double tolerance);
 

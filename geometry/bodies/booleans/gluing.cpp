@@ -7,10 +7,14 @@
 
 #include "geometry/bodies/booleans/boolean.h"
 #include "geometry/bodies/topology/characteristics.h"
+#include "geometry/queries/differential/curvature.h"
 
 namespace lekalo::geometry {
 
 namespace {
+
+// Half-planes nearer to each other, in radians, are one.
+constexpr double kSameAngle = 1e-6;
 
 // One use of a strand by a piece.
 struct Use {
@@ -86,9 +90,11 @@ class Gluing {
     const Frame frame = frame_about(at.d[0], glm::normalize(at.d[1]));
     struct Half {
       Use use;
-      double angle;
+      double angle;         // counterclockwise about the strand, from the first one's
+      double bend;          // how the angle grows with the distance from the strand, twice as fast
       bool material_after;  // counterclockwise about the strand
     };
+    double first = 0;
     std::vector<Half> halves;
     for (const Use& use : uses) {
       const FacePiece& piece = pieces_[use.piece];
@@ -96,11 +102,23 @@ class Gluing {
       const Vec3 normal = (piece.forward ? 1.0 : -1.0) * piece.surface->normal(uv.x, uv.y);
       const Vec3 along = (runs_forward(use) ? 1.0 : -1.0) * frame.z;
       const Vec3 into = glm::cross(normal, along);  // the face is on the left
-      const double angle = std::atan2(glm::dot(into, frame.y), glm::dot(into, frame.x));
-      // The material is behind the normal: turning counterclockwise goes along z x into.
-      halves.push_back({use, angle, glm::dot(glm::cross(frame.z, into), normal) < 0});
+      double angle = std::atan2(glm::dot(into, frame.y), glm::dot(into, frame.x));
+      if (halves.empty()) first = angle - kSameAngle;
+      angle = std::fmod(angle - first + kTwoPi, kTwoPi);
+      // Turning counterclockwise goes along z x into; the material is behind the normal.
+      const Vec3 onward = glm::cross(frame.z, into);
+      const Mat3 bending = shape_operator(curvature(piece.surface->evaluate(uv.x, uv.y, 2), normal));
+      const double bend = glm::dot(into, bending * into) * glm::dot(normal, onward);
+      halves.push_back({use, angle, bend, glm::dot(onward, normal) < 0});
     }
     std::sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) { return a.angle < b.angle; });
+    // Faces that touch along the strand differ in how they bend.
+    for (auto begin = halves.begin(); begin != halves.end();) {
+      const auto end =
+          std::find_if(begin, halves.end(), [&](const Half& half) { return half.angle > begin->angle + kSameAngle; });
+      std::sort(begin, end, [](const Half& a, const Half& b) { return a.bend < b.bend; });
+      begin = end;
+    }
     std::vector<std::pair<Use, Use>> result;
     for (size_t k = 0; k < halves.size(); ++k) {
       const Half& next = halves[(k + 1) % halves.size()];

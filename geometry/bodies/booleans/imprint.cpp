@@ -10,11 +10,13 @@
 #include "geometry/bodies/booleans/boolean.h"
 #include "geometry/bodies/booleans/coincidence.h"
 #include "geometry/bodies/booleans/near_curve.h"
+#include "geometry/bodies/booleans/same_sweep.h"
 #include "geometry/bodies/primitives/construct.h"
 #include "geometry/curves/operations/curve_part.h"
 #include "geometry/queries/contours/contour_approximation.h"
 #include "geometry/queries/contours/surface_intersection.h"
 #include "geometry/queries/intersections/curve_intersections.h"
+#include "geometry/queries/quadrics/canonical_surface.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/tolerances.h"
 #include "geometry/transformed.h"
@@ -27,6 +29,8 @@ namespace {
 constexpr double kSameNode = 1e-8;
 // Parts of the parameters of a face's border.
 constexpr double kOnBorder = 1e-9;
+// Of lengths: parameters of a plane that are so near to them are lengths.
+constexpr double kRigid = 1e-13;
 // A share of the domain that the image of a contour is near enough to where it cannot be known better: beside a place
 // where surfaces touch.
 constexpr double kNearSingular = 1e-12;
@@ -127,15 +131,18 @@ class Imprinting {
     imprint_.faces[side].resize(of.faces.size());
   }
 
-  // Borders of planes add nothing but chances for rounding.
+  // Borders of planes add nothing but chances for rounding; a plane that was turned is one.
   SurfacePtr support_of(const SurfacePtr& surface) const {
-    const auto* plane = dynamic_cast<const Plane*>(surface.get());
-    if (!plane) return surface;
-    const Vec3 center = plane->frame().to_local_point(all_.center());
+    const auto known = canonical(surface);
+    if (!known || known->kind != CanonicalSurface::Kind::plane) return surface;
+    const Mat3 axes = glm::transpose(known->to_local), square = known->to_local * axes;
+    for (int k = 0; k < 3; ++k)
+      if (glm::length(square[k] - Mat3(1)[k]) > kRigid) return surface;
+    const Frame frame{known->origin, axes[0], axes[1], glm::cross(axes[0], axes[1])};
+    const Vec3 center = frame.to_local_point(all_.center());
     const double reach = 1.37 * size_;
-    auto wide = std::make_shared<Plane>(
-        plane->frame(), Rectangle{{center.x - reach, center.x + reach}, {center.y - reach, center.y + reach}});
-    return wide;
+    return std::make_shared<Plane>(
+        frame, Rectangle{{center.x - reach, center.x + reach}, {center.y - reach, center.y + reach}});
   }
 
   int point(const Vec3& at, const Origin& origin = {}) {
@@ -263,7 +270,7 @@ class Imprinting {
 
   void meet_faces() {
     for_pairs([&](int f, int g) {
-      if (is_coincident(f, g)) return;
+      if (is_coincident(f, g) || sweeps_meet_at_borders(face(0, f).surface, face(1, g).surface, tolerance_)) return;
       const Contours found = intersect(faces_[0][f].support, faces_[1][g].support);
       if (found.coincident) {
         set_coincident(f, g);

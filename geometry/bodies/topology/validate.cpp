@@ -31,6 +31,38 @@ std::vector<double> samples(const Curve& curve, int count = kSamples) {
   return result;
 }
 
+// Of parameters in order those that are farther than a length from both ends, and where the curve is that far for the
+// first and the last time; all of them where it is nowhere much farther.
+std::vector<double> beyond_ends(const Curve& curve, const std::vector<double>& ts, double length) {
+  const auto is_beyond = [&](double t, double end) { return glm::length(curve.point(t) - curve.point(end)) >= length; };
+  const auto border = [&](double near, double far, double end) {
+    for (int step = 0; step < 60; ++step) {
+      const double middle = 0.5 * (near + far);
+      (is_beyond(middle, end) ? far : near) = middle;
+    }
+    return far;
+  };
+  const auto is_near_begin = [&](double t) { return !is_beyond(t, ts.front()); };
+  const auto is_near_end = [&](double t) { return !is_beyond(t, ts.back()); };
+  const auto first = std::find_if_not(ts.begin(), ts.end(), is_near_begin);
+  const auto last = std::find_if_not(ts.rbegin(), ts.rend(), is_near_end);
+  if (first == ts.end() || last == ts.rend() || !(*first < *last)) return ts;
+  std::vector<double> result{ts.front(), border(*(first - 1), *first, ts.front())};
+  for (auto at = first; *at <= *last; ++at)
+    if (*at > result.back()) result.push_back(*at);
+  const double end = border(*(last - 1), *last, ts.back());
+  if (end > result.back()) result.push_back(end);
+  result.push_back(ts.back());
+  return result;
+}
+
+double longest_side(const std::vector<Vec2>& polygon) {
+  double result = 0;
+  for (size_t i = 0; i < polygon.size(); ++i)
+    result = std::max(result, glm::length(polygon[(i + 1) % polygon.size()] - polygon[i]));
+  return result;
+}
+
 class Validation {
  public:
   explicit Validation(const Body& body) : body_(body) {}
@@ -173,12 +205,13 @@ class Validation {
     return Vec2(coedge.image->point(coedge.forward == last ? domain.hi : domain.lo));
   }
 
-  // The loop as a polygon in the parameter plane.
-  std::vector<Vec2> polygon(int loop, int count = kSamples) const {
+  // The loop as a polygon in the parameter plane, if asked with first sides of one length beside its vertices.
+  std::vector<Vec2> polygon(int loop, int count = kSamples, double first_side = 0) const {
     std::vector<Vec2> result;
     for (int index : body_.loops[loop].coedges) {
       const Coedge& coedge = body_.coedges[index];
       std::vector<double> ts = samples(*coedge.image, count);
+      if (first_side > 0) ts = beyond_ends(*coedge.image, ts, first_side);
       if (!coedge.forward) std::reverse(ts.begin(), ts.end());
       ts.pop_back();
       for (double t : ts) result.push_back(Vec2(coedge.image->point(t)));
@@ -238,32 +271,41 @@ class Validation {
     if (loops_cross(face, side)) report("the loops of a face do not cross", face_name(index));
   }
 
-  // Polygons of neighbouring loops may cross where the curves do not: finer ones decide. Polygons that cross
-  // unnoticed leave triangles of another area than they enclose.
+  // Polygons of neighbouring loops may cross where the curves do not: finer ones decide. Beside a vertex in which loops
+  // touch, with one tangent, even those of any length do unless their first sides are of one length.
   bool loops_cross(const Face& face, double side) const {
-    for (int count : {kSamples, 8 * kSamples, 64 * kSamples}) {
-      std::vector<Vec2> points;
-      std::vector<std::vector<int>> polygons;
-      double area = 0, all = 0;
-      for (int loop : face.loops) {
-        polygons.emplace_back();
-        const std::vector<Vec2> border = polygon(loop, count);
-        area += side * signed_area(border);
-        all += std::abs(signed_area(border));
-        for (const Vec2& p : border) {
-          polygons.back().push_back(static_cast<int>(points.size()));
-          points.push_back(p);
-        }
-        if (side < 0) std::reverse(polygons.back().begin(), polygons.back().end());
-      }
-      try {
-        for (const IndexTriangle& t : triangulate(points, polygons))
-          area -= signed_area({points[t[0]], points[t[1]], points[t[2]]});
-        if (std::abs(area) <= kParameterRounding * all) return false;
-      } catch (const std::invalid_argument&) {
-      }
+    for (const int count : {kSamples, 8 * kSamples, 64 * kSamples}) {
+      double longest = 0;
+      for (const int loop : face.loops) longest = std::max(longest, longest_side(polygon(loop, count)));
+      for (const double first_side : {0.0, 4 * longest})
+        if (!polygons_cross(face, side, count, first_side)) return false;
     }
     return true;
+  }
+
+  // Polygons that cross unnoticed leave triangles of another area than they enclose.
+  bool polygons_cross(const Face& face, double side, int count, double first_side) const {
+    std::vector<Vec2> points;
+    std::vector<std::vector<int>> polygons;
+    double area = 0, all = 0;
+    for (const int loop : face.loops) {
+      polygons.emplace_back();
+      const std::vector<Vec2> border = polygon(loop, count, first_side);
+      area += side * signed_area(border);
+      all += std::abs(signed_area(border));
+      for (const Vec2& p : border) {
+        polygons.back().push_back(static_cast<int>(points.size()));
+        points.push_back(p);
+      }
+      if (side < 0) std::reverse(polygons.back().begin(), polygons.back().end());
+    }
+    try {
+      for (const IndexTriangle& t : triangulate(points, polygons))
+        area -= signed_area({points[t[0]], points[t[1]], points[t[2]]});
+      return std::abs(area) > kParameterRounding * all;
+    } catch (const std::invalid_argument&) {
+      return true;
+    }
   }
 
   void check_vertices() {
