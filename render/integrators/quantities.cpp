@@ -9,6 +9,7 @@
 
 #include "geometry/expression/expression.h"
 #include "geometry/queries/closest/closest_point.h"
+#include "geometry/queries/closest/nearest_on_surface.h"
 #include "geometry/queries/differential/stretch.h"
 #include "geometry/spatial/nearest_points.h"
 #include "render/model/attributes.h"
@@ -124,21 +125,20 @@ Quantity parameter_checker(int count_u, int count_v) {
 
 // From the nearest point of another surface, positive on the side that its normal looks to.
 Quantity distance_to(const SurfacePtr& other) {
-  const auto projector = [&] {
+  const auto nearest_on = [&] {
     try {
-      return SurfaceProjector(other);
+      return NearestOnSurface(other);
     } catch (const std::invalid_argument& error) {
       throw FieldError("to", error.what());
     }
   }();
   Quantity q;
   q.has_sign = true;
-  q.value = [projector, other](const AnalysedPlace& at) -> Value {
-    const SurfaceFootPoints found = projector.foot_points(at.point.position);
-    if (found.foot_points.empty()) return std::nullopt;
-    const SurfaceFootPoint& nearest = found.foot_points.front();
-    const bool behind = glm::dot(at.point.position - nearest.point, other->normal(nearest.u, nearest.v)) < 0;
-    return behind ? -nearest.distance : nearest.distance;
+  q.value = [nearest_on, other](const AnalysedPlace& at) -> Value {
+    const std::optional<SurfaceFootPoint> nearest = nearest_on(at.point.position);
+    if (!nearest) return std::nullopt;
+    const bool behind = glm::dot(at.point.position - nearest->point, other->normal(nearest->u, nearest->v)) < 0;
+    return behind ? -nearest->distance : nearest->distance;
   };
   return q;
 }

@@ -105,6 +105,9 @@ class StrokeCollector {
   // Of all its bounded surfaces.
   void each_bounded_part(const Entity& shape, const std::function<void(const geometry::SurfacePtr&)>& visit);
   const std::vector<geometry::SmoothPart>& smooth_parts_of(const geometry::SurfacePtr& surface);
+  // The body with fitted copies of its composed surfaces, which silhouettes are searched on faster; itself if it has
+  // none.
+  geometry::BodyPtr with_fitted_faces(const geometry::BodyPtr& body);
 
   void add_boundary(const geometry::SurfacePtr& surface, const Style& style, const HiddenLines& hidden);
 
@@ -302,6 +305,10 @@ class StrokeCollector {
   int met_ = -2, met_placement_ = 0;                            // Stroke::met
   geometry::ShapePtr solid_;                                    // the last one, and how its lines are seen
   Vec3 solid_view_{0};
+  const geometry::Shape* outlined_ = nullptr;  // likewise, of tubes and balls
+  Vec3 outlined_view_{0};
+  geometry::ShapeOutlines outlines_of_shape_;
+  std::map<geometry::BodyPtr, geometry::BodyPtr> fitted_bodies_;
   std::map<const geometry::Tube*, geometry::TubeBoundary> tubes_;            // those that were met
   std::map<geometry::SurfacePtr, std::vector<geometry::SmoothPart>> parts_;  // of those that were asked
   std::vector<geometry::MeshLine> mesh_lines_;                               // of the object

@@ -75,13 +75,28 @@ void StrokeCollector::add(const BodyContours& contours, const Body& body, const 
     }
 }
 
+BodyPtr StrokeCollector::with_fitted_faces(const BodyPtr& body) {
+  const auto [found, is_new] = fitted_bodies_.try_emplace(body, body);
+  const auto is_composed = [](const Face& face) { return face.surface->is_composed(); };
+  if (!is_new || std::none_of(body->faces.begin(), body->faces.end(), is_composed)) return found->second;
+  const auto copy = std::make_shared<Body>(*body);
+  for (Face& face : copy->faces)
+    if (is_composed(face) && smooth_parts_of(face.surface).size() == 1) face.surface = fitted_copy(face.surface);
+  return found->second = copy;
+}
+
 void StrokeCollector::add_silhouettes(const ViewOf& view, const Style& style, const HiddenLines& hidden) {
-  if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) add(silhouette(**body, view), **body, style, hidden);
+  // What a copy's search leaves open the surface itself may tell.
+  if (const auto* body = std::get_if<BodyPtr>(&object_->shape)) {
+    const BodyPtr copy = with_fitted_faces(*body);
+    BodyContours found = silhouette(*copy, view);
+    if (!found.complete && copy != *body) found = silhouette(**body, view);
+    add(found, **body, style, hidden);
+  }
   if (const auto* shape = std::get_if<ShapePtr>(&object_->shape)) add_solid(*shape, view, false, style, hidden);
   each_surface([&](const SurfacePtr& surface) {
     if (!surface->bounded() || dynamic_cast<const Plane*>(surface.get())) return;
     each_smooth_part(surface, [&](const SurfacePtr& part) {
-      // What the copy's search leaves open the surface itself may tell.
       const SurfacePtr copy = fitted_copy(part);
       Contours found = silhouette(copy, view);
       if (!found.complete && copy != part) found = silhouette(part, view);
@@ -126,7 +141,12 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
       for (const CsgLine& line : solids_.at(shape).lines)
         if (line.kind == asked) add(line, style, hidden);
     } else if ((tube || balls) && kind_ != "smooth") {
-      add(tube ? outlines(*tube, own_view) : outlines(*balls, own_view), edges, style, hidden);
+      // Asked for edges and for silhouettes.
+      if (outlined_ != &original || outlined_view_ != own_view.direction_or_eye) {
+        outlined_ = &original, outlined_view_ = own_view.direction_or_eye;
+        outlines_of_shape_ = tube ? outlines(*tube, own_view) : outlines(*balls, own_view);
+      }
+      add(outlines_of_shape_, edges, style, hidden);
       if (!tube || !edges) return;
       const TubeBoundary::Edges own = boundary_of(*tube).edges(own_view);
       if (!own.all_known) leave_out("some edges along which " + name_of_object() + " goes through itself");

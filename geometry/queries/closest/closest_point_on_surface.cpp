@@ -1,4 +1,4 @@
-// Foot points of a point on a surface (closest_point.h).
+// Foot points of a point on a surface (closest_point.h, nearest_on_surface.h).
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,6 +9,7 @@
 #include "geometry/numerics/root_search.h"
 #include "geometry/queries/closest/closest_point.h"
 #include "geometry/queries/closest/foot_point_polynomials.h"
+#include "geometry/queries/closest/nearest_on_surface.h"
 #include "geometry/queries/closest/parts_projection.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/tolerances.h"
@@ -83,9 +84,7 @@ bool has_collapsed_edge(const SurfacePiece& piece) {
                      [&](const Box3& edge) { return edge.diameter() <= kNoDerivative * all.diameter(); });
 }
 
-}  // namespace
-
-struct SurfaceProjector::Prepared {
+struct PreparedSurface {
   struct Piece {
     Rectangle domain;
     ParameterMap map_u, map_v;
@@ -96,6 +95,7 @@ struct SurfaceProjector::Prepared {
     bool holds_u;
     double place, below;  // the same line seen from below: across a seam another parameter
     bool has_below, has_above;
+    Box3 box;
     std::optional<CurveProjector> foot_points;  // none of a pole
   };
   SurfacePtr surface;
@@ -105,7 +105,7 @@ struct SurfaceProjector::Prepared {
   std::vector<Piece> pieces;
   std::vector<Line> lines;
 
-  explicit Prepared(SurfacePtr given)
+  explicit PreparedSurface(SurfacePtr given)
       : surface(std::move(given)),
         domain(surface->domain()),
         edges(surface->degenerate_edges()),
@@ -145,7 +145,7 @@ struct SurfaceProjector::Prepared {
       const double place = places[k];
       const bool first = k == 0, last = k + 1 == places.size();
       if (periodic && last) continue;
-      Line line{holds_u, place, first ? range.hi : place, !first || periodic, !last, {}};
+      Line line{holds_u, place, first ? range.hi : place, !first || periodic, !last, {}, {}};
       const auto jumps = [&](double t) {
         const Vec3 a = across(holds_u, line.below, t, true), b = across(holds_u, place, t, false);
         return glm::length(a - b) > 1e-9 * (glm::length(a) + glm::length(b));
@@ -156,7 +156,8 @@ struct SurfaceProjector::Prepared {
         if (!crease) continue;
       }
       const auto curve = std::make_shared<ParameterLine>(surface, held, place);
-      if (bounds(*curve).diameter() > kCollapsedEdge * size)
+      line.box = bounds(*curve);
+      if (line.box.diameter() > kCollapsedEdge * size)
         line.foot_points.emplace(curve, pieces_along(holds_u, place, last, given_pieces, *curve));
       lines.push_back(std::move(line));
     }
@@ -182,29 +183,77 @@ struct SurfaceProjector::Prepared {
   }
 };
 
-namespace {
+// A part of a piece, or all of it, by which the nearest foot point is looked for.
+struct NearCell {
+  const PreparedSurface::Piece* piece;
+  Rectangle part;
+  Box3 box;
+  Vec3 place;  // one of its points
+};
 
-// All foot points of one point, gathered.
-template <class Prepared>
+std::vector<NearCell> near_cells(const PreparedSurface& on) {
+  constexpr double kCells = 16;  // in each direction, of all the surface
+  std::vector<NearCell> cells;
+  const int each = std::max(1, static_cast<int>(kCells / std::sqrt(on.pieces.size())));
+  for (const PreparedSurface::Piece& piece : on.pieces) {
+    const int count = piece.polynomials ? 1 : each;
+    const auto part = [&](const Interval& all, int k) {
+      return Interval{k == 0 ? all.lo : all.lo + all.width() * k / count,
+                      k + 1 == count ? all.hi : all.lo + all.width() * (k + 1) / count};
+    };
+    for (int i = 0; i < count; ++i)
+      for (int j = 0; j < count; ++j) {
+        const Rectangle cell{part(piece.domain.u, i), part(piece.domain.v, j)};
+        cells.push_back(
+            {&piece, cell, on.surface->enclose(cell, 0).d(0, 0), on.surface->point(cell.u.middle(), cell.v.middle())});
+      }
+  }
+  return cells;
+}
+
+// All foot points of one point, gathered; or the nearest.
 class SurfaceProjection {
  public:
-  using Piece = typename Prepared::Piece;
-  using Line = typename Prepared::Line;
-  SurfaceProjection(const Vec3& p, const Prepared& on)
+  using Piece = PreparedSurface::Piece;
+  using Line = PreparedSurface::Line;
+  SurfaceProjection(const Vec3& p, const PreparedSurface& on)
       : p_(p), on_(on), surface_(*on.surface), domain_(on.domain), size_(on.size) {}
 
   SurfaceFootPoints run() {
     for (const Piece& piece : on_.pieces) search(piece);
     for (const Line& line : on_.lines) add_line(line);
-    std::sort(result_.foot_points.begin(), result_.foot_points.end(),
-              [](const SurfaceFootPoint& a, const SurfaceFootPoint& b) {
-                if (a.distance != b.distance) return a.distance < b.distance;
-                return a.u != b.u ? a.u < b.u : a.v < b.v;
-              });
+    std::sort(result_.foot_points.begin(), result_.foot_points.end(), is_before);
     return std::move(result_);
   }
 
+  std::optional<SurfaceFootPoint> nearest(const std::vector<NearCell>& cells) {
+    double near = kInfinity;
+    for (const NearCell& cell : cells) near = std::min(near, glm::length(p_ - cell.place));
+    near += kSameFootPoint * size_;
+    std::vector<std::pair<double, const NearCell*>> candidates;
+    for (const NearCell& cell : cells)
+      if (const double away = distance_to(cell.box); away <= near) candidates.emplace_back(away, &cell);
+    std::sort(candidates.begin(), candidates.end());
+    for (const auto& [away, cell] : candidates) {
+      if (away > near) break;
+      cell->piece->polynomials ? search(*cell->piece) : search(cell->piece->domain, cell->part);
+      for (const SurfaceFootPoint& found : result_.foot_points) near = std::min(near, found.distance);
+    }
+    for (const Line& line : on_.lines)
+      if (distance_to(line.box) <= near) add_line(line);
+    const auto first = std::min_element(result_.foot_points.begin(), result_.foot_points.end(), is_before);
+    return first == result_.foot_points.end() ? std::nullopt : std::optional(*first);
+  }
+
  private:
+  static bool is_before(const SurfaceFootPoint& a, const SurfaceFootPoint& b) {
+    if (a.distance != b.distance) return a.distance < b.distance;
+    return a.u != b.u ? a.u < b.u : a.v < b.v;
+  }
+  double distance_to(const Box3& box) const {
+    return glm::length(glm::max(glm::max(box.lo - p_, p_ - box.hi), Vec3(0)));
+  }
+
   void add(double u, double v, FootPointKind kind) {
     const Vec3 at = surface_.point(u, v);
     for (const SurfaceFootPoint& other : result_.foot_points)
@@ -347,7 +396,7 @@ class SurfaceProjection {
   }
 
   const Vec3 p_;
-  const Prepared& on_;
+  const PreparedSurface& on_;
   const Surface& surface_;
   const Rectangle domain_;
   const double size_;
@@ -355,6 +404,10 @@ class SurfaceProjection {
 };
 
 }  // namespace
+
+struct SurfaceProjector::Prepared : PreparedSurface {
+  using PreparedSurface::PreparedSurface;
+};
 
 SurfaceProjector::SurfaceProjector(SurfacePtr surface) {
   const SteppedParts stepped = parts_between_steps(surface);
@@ -378,6 +431,27 @@ SurfaceFootPoints SurfaceProjector::foot_points(const Vec3& point) const {
   if (!plane_) return SurfaceProjection(point, *prepared_).run();
   const Vec3 local = plane_->frame().to_local_point(point);
   return {{{local.x, local.y, plane_->point(local.x, local.y), std::abs(local.z), FootPointKind::minimum}}, {}};
+}
+
+struct NearestOnSurface::Prepared {
+  std::optional<PreparedSurface> surface;
+  std::vector<NearCell> cells;
+  std::optional<SurfaceProjector> projector;  // of planes and parts instead, which have few foot points
+
+  explicit Prepared(const SurfacePtr& of) {
+    if (of->bounded() && parts_between_steps(of).parts.empty() && smooth_parts(of).size() <= 1)
+      cells = near_cells(surface.emplace(of));
+    else
+      projector.emplace(of);
+  }
+};
+
+NearestOnSurface::NearestOnSurface(const SurfacePtr& surface) : prepared_(std::make_shared<Prepared>(surface)) {}
+
+std::optional<SurfaceFootPoint> NearestOnSurface::operator()(const Vec3& point) const {
+  if (prepared_->surface) return SurfaceProjection(point, *prepared_->surface).nearest(prepared_->cells);
+  const SurfaceFootPoints all = prepared_->projector->foot_points(point);
+  return all.foot_points.empty() ? std::nullopt : std::optional(all.foot_points.front());
 }
 
 SurfaceFootPoints project(const Vec3& point, const Surface& surface) {

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "geometry/bodies/trims/trim.h"
+#include "geometry/queries/contours/contour_approximation.h"
 #include "geometry/queries/contours/contour_curve.h"
 #include "geometry/queries/contours/surface_intersection.h"
 #include "geometry/queries/differential/plane_lines.h"
@@ -23,6 +24,8 @@ namespace {
 // Parts of the size.
 constexpr double kSameCut = 1e-9;
 constexpr double kSameJoint = 1e-8;
+// What stands for a searched curve where crossings are sought to kSamePoint.
+constexpr double kNearCurve = 1e-11;
 // Of the parameters of a face's border.
 constexpr double kOnBorder = 1e-9;
 
@@ -310,6 +313,13 @@ bool is_plane(const Surface& surface) {
 BodyContours silhouette(const Body& body, const ViewOf& view) {
   const double size = size_of(bounds(body));
   Joining joining(size);
+  // As polynomials: of what was searched every enclosure solves equations.
+  std::map<int, CurvePtr> simple_edges;
+  const auto simple_edge = [&](int number) -> const Curve& {
+    const auto [found, is_new] = simple_edges.try_emplace(number);
+    if (is_new) found->second = contour_approximation(body.edges[number].curve, kNearCurve);
+    return *found->second;
+  };
   for (int k = 0; k < count_of(body); ++k) {
     const FaceOf face(body, k);
     // What is plane has none, or is one where it is seen edge-on: its edges show that.
@@ -321,15 +331,16 @@ BodyContours silhouette(const Body& body, const ViewOf& view) {
       // A side of the parameters that is one point: the normal vanishes all along it.
       if (measured.length() <= kSameJoint * size) continue;
       std::vector<Vec3> cuts;
+      const CurvePtr simple = contour_approximation(contour.curve, kNearCurve);
       for (const int number : face.edges()) {
-        const Curve& edge = *body.edges[number].curve;
+        const Curve& edge = simple_edge(number);
         // The search for crossings takes long over common parts.
         if (runs_along(edge, measured, kSameJoint * size)) {
           cuts.push_back(edge.point(edge.domain().lo));
           cuts.push_back(edge.point(edge.domain().hi));
           continue;
         }
-        for (const CurveIntersection& intersection : intersect(*contour.curve, edge).points)
+        for (const CurveIntersection& intersection : intersect(*simple, edge).points)
           cuts.push_back(intersection.point);
       }
       joining.add(contour, cuts, k, -1, [&](double t) { return face.holds(contour.images[0]->point(t)); });

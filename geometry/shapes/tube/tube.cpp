@@ -21,6 +21,7 @@ constexpr double kThin = 0.02;
 
 // Cells along a line of which some may be filled by others.
 constexpr size_t kMany = 8;
+constexpr double kAbout = 1e-9;      // of its size: more than rounding of places
 constexpr double kRounding = 1e-15;  // of places on lines near the tube, of its size
 
 // Unit vector of the first derivative that is not zero; `backward` seen towards smaller t.
@@ -165,7 +166,9 @@ bool Tube::holds(const Vec3& p) const {
   static thread_local LineSpans spans;
   spans.clear();
   const Line line{p, glm::normalize(Vec3(0.5377, -0.7391, 0.4057))};  // along which no curve runs, most likely
-  tree_.along(line, {-kInfinity, kInfinity}, [&](int cell) { sweep_.add_spans(cell, line, limit(cell, line), spans); });
+  // What fills the line at p is of cells whose boxes are there.
+  const Interval about{-kAbout * sweep_.size(), kAbout * sweep_.size()};
+  tree_.along(line, about, [&](int cell) { sweep_.add_spans(cell, line, limit(cell, line), spans); });
   return std::any_of(spans.begin(), spans.end(), [](const Span& span) { return span.in.s < 0 && span.out.s > 0; });
 }
 

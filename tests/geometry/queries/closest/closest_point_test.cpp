@@ -10,6 +10,7 @@
 #include "geometry/curves/analytic/ellipse.h"
 #include "geometry/curves/analytic/polyline.h"
 #include "geometry/curves/splines/bezier_curve.h"
+#include "geometry/queries/closest/nearest_on_surface.h"
 #include "geometry/surfaces/analytic/sphere.h"
 #include "geometry/surfaces/analytic/torus.h"
 #include "geometry/surfaces/splines/bezier_surface.h"
@@ -342,6 +343,33 @@ TEST(RandomFootPoints, OfSurfacesByPolynomialsAndByIntervals) {
     }
   }
   tests::report_figure("feet", foot_points);
+}
+
+// Among few cells of the surface: patches, intervals, poles, seams and edges.
+TEST(NearestOnSurface, IsTheFirstOfAllFootPoints) {
+  std::mt19937_64 random(11);
+  const std::array<SurfacePtr, 4> surfaces{
+      std::make_shared<TorusSurface>(Frame{}, 0.5, 0.2, Rectangle{{0, kTwoPi}, {0, kTwoPi}}),
+      std::make_shared<WithoutBezierPoints>(
+          std::make_shared<TorusSurface>(Frame{}, 0.5, 0.2, Rectangle{{0.2, 3}, {0, kTwoPi}})),
+      std::make_shared<WithoutBezierPoints>(
+          std::make_shared<SphereSurface>(Frame{}, 0.6, Rectangle{{0, kTwoPi}, {-0.4, kPi / 2}})),
+      std::make_shared<NurbsSurface>(
+          bezier_surface(Grid<Vec3>{3, 2, {{0, 0, 0}, {0, 1, 0.3}, {0.5, 0, 1}, {0.5, 1, -1}, {1, 0, 0}, {1, 1, 0}}}))};
+  for (const SurfacePtr& surface : surfaces) {
+    const NearestOnSurface nearest_on(surface);
+    const Rectangle domain = surface->domain();
+    for (int k = tests::tier_count(20000); k > 0; --k) {
+      const Vec3 on =
+          surface->point(domain.u.lo + unit(random) * domain.u.width(), domain.v.lo + unit(random) * domain.v.width());
+      const Vec3 p = random_place(random, on);
+      const SurfaceFootPoints all = project(p, *surface);
+      const auto nearest = nearest_on(p);
+      ASSERT_TRUE(nearest.has_value());
+      EXPECT_NEAR(nearest->distance, all.foot_points.front().distance, 1e-14 * (1 + glm::length(p)));
+      EXPECT_LE(glm::length(surface->point(nearest->u, nearest->v) - nearest->point), 1e-15);
+    }
+  }
 }
 
 // Rounding puts points of a border to either side of it.
