@@ -19,6 +19,7 @@
 
 #include "render/completeness/patch_entries.h"
 #include "render/completeness/shape_entries.h"
+#include "render/completeness/type_entries.h"
 #include "render/trace/world.h"
 #include "support/tier.h"
 #include "support/worst.h"
@@ -33,8 +34,8 @@ constexpr int kMaxTries = 10;  // for each ray along a silhouette, which only so
 
 std::vector<Entry> all_entries() {
   std::vector<Entry> entries = bezier_entries();
-  for (const auto& more :
-       {surface_entries(), formula_entries(), composed_entries(), implicit_entries(), sweep_entries(), solid_entries()})
+  for (const auto& more : {surface_entries(), formula_entries(), composed_entries(), type_entries(), implicit_entries(),
+                           sweep_entries(), solid_entries()})
     entries.insert(entries.end(), more.begin(), more.end());
   return entries;
 }

@@ -12,7 +12,8 @@
 #include "geometry/shapes/tube/tube.h"
 #include "geometry/surfaces/analytic/formula_surface.h"
 #include "render/completeness/patch_entries.h"
-#include "render/scene/scene_text.h"
+#include "render/every_surface/examples.h"
+#include "support/interpolated_patches.h"
 #include "support/sweep_oracle.h"
 
 namespace lekalo::render::completeness {
@@ -55,62 +56,11 @@ struct WavesSigns {
   }
 };
 
-// The rational patch that polynomial formulas of degrees p and q are: values at p + 1 and q + 1 parameters, in long
-// double, solved for the Bernstein coefficients.
-inline SurfacePtr interpolated(int p, int q, const Rectangle& domain,
-                               const std::function<Vec3(double u, double v)>& point) {
-  using Real = long double;
-  const auto basis = [](int n, int i, Real s) {
-    Real choose = 1;
-    for (int k = 0; k < i; ++k) choose = choose * (n - k) / (k + 1);
-    return choose * std::pow(s, static_cast<Real>(i)) * std::pow(1 - s, static_cast<Real>(n - i));
-  };
-  // Gauss-Jordan elimination of B c = f along one direction.
-  const auto solve = [&](int n, std::vector<std::array<Real, 3>> f) {
-    std::vector<std::vector<Real>> b(n + 1, std::vector<Real>(n + 1));
-    for (int r = 0; r <= n; ++r)
-      for (int c = 0; c <= n; ++c) b[r][c] = basis(n, c, Real(r) / n);
-    for (int k = 0; k <= n; ++k) {
-      int pivot = k;
-      for (int r = k; r <= n; ++r)
-        if (std::abs(b[r][k]) > std::abs(b[pivot][k])) pivot = r;
-      std::swap(b[k], b[pivot]);
-      std::swap(f[k], f[pivot]);
-      for (int r = 0; r <= n; ++r) {
-        if (r == k) continue;
-        const Real m = b[r][k] / b[k][k];
-        for (int c = k; c <= n; ++c) b[r][c] -= m * b[k][c];
-        for (int d = 0; d < 3; ++d) f[r][d] -= m * f[k][d];
-      }
-    }
-    for (int k = 0; k <= n; ++k)
-      for (int d = 0; d < 3; ++d) f[k][d] /= b[k][k];
-    return f;
-  };
-  std::vector<std::vector<std::array<Real, 3>>> net(p + 1);
-  for (int i = 0; i <= p; ++i) {
-    for (int j = 0; j <= q; ++j) {
-      const Vec3 x = point(domain.u.lo + domain.u.width() * i / p, domain.v.lo + domain.v.width() * j / q);
-      net[i].push_back({x.x, x.y, x.z});
-    }
-    net[i] = solve(q, net[i]);
-  }
-  NurbsSurfaceForm form = patch_form(p, q, 0, [](double, double, Random&) { return Vec4(0, 0, 0, 1); });
-  for (int j = 0; j <= q; ++j) {
-    std::vector<std::array<Real, 3>> column;
-    for (int i = 0; i <= p; ++i) column.push_back(net[i][j]);
-    column = solve(p, column);
-    for (int i = 0; i <= p; ++i)
-      for (int d = 0; d < 3; ++d) form.points[i * (q + 1) + j][d] = static_cast<double>(column[i][d]);
-  }
-  return std::make_shared<NurbsSurface>(form);
-}
-
 inline std::vector<Entry> formula_entries() {
   const auto polynomial = [](const std::string& name, const std::array<std::string, 3>& point, int p, int q,
                              const Rectangle& domain, const std::function<Vec3(double, double)>& at) {
     return Entry{name, [=](const Vec3& offset) {
-                   const SurfacePtr patch = interpolated(p, q, domain, at);
+                   const SurfacePtr patch = tests::interpolated(p, q, domain, at);
                    return formula_subject(point, domain, {}, offset, truth_of({patch}, bounds(*patch).diameter()));
                  }};
   };
@@ -144,17 +94,12 @@ inline std::vector<Entry> formula_entries() {
 // -------------------------------------------------------------------------------- surfaces made of others
 
 // As a scene makes them of curves and surfaces without rational forms, each beside an oracle of what it is.
-inline SurfacePtr composed_surface(const std::string& fields) {
-  const BuiltText built = build_text("geometry:\n  s: " + fields + "\n");
-  return std::get<SurfacePtr>(built.model.geometry.at("s"));
-}
-
 inline std::vector<Entry> composed_entries() {
   const auto torus = [](const std::string& name, const std::string& fields) {
     return Entry{name,
                  [=](const Vec3& offset) {
                    return moved_subject(
-                       composed_surface(fields), offset,
+                       every_surface::surface_of(fields), offset,
                        truth_of_signs<TorusSigns>({Vec3(-2.8, -2.8, -0.8), Vec3(2.8, 2.8, 0.8)}, false));
                  },
                  true};
@@ -162,8 +107,9 @@ inline std::vector<Entry> composed_entries() {
   const auto polynomial = [](const std::string& name, const std::string& fields, int p, int q, const Rectangle& domain,
                              const std::function<Vec3(double, double)>& at) {
     return Entry{name, [=](const Vec3& offset) {
-                   const SurfacePtr patch = interpolated(p, q, domain, at);
-                   return moved_subject(composed_surface(fields), offset, truth_of({patch}, bounds(*patch).diameter()));
+                   const SurfacePtr patch = tests::interpolated(p, q, domain, at);
+                   return moved_subject(every_surface::surface_of(fields), offset,
+                                        truth_of({patch}, bounds(*patch).diameter()));
                  }};
   };
   const auto graph = [](const std::string& point) {
@@ -204,13 +150,14 @@ inline std::vector<Entry> composed_entries() {
                  2, 2, {{0, 1}, {0, 1}}, [](double u, double v) { return Vec3(u, v, 12 * u * (1 - u) * v * (1 - v)); }),
       {"fillet_with_even_sections",
        [](const Vec3& offset) {
-         const SurfacePtr part = composed_surface(
+         const SurfacePtr part = every_surface::surface_of(
              "{ type: torus_surface, major_radius: 1.4, minor_radius: 0.4, frame: { origin: [0, 0, 0.4] }, domain: { "
              "u: "
              "[0, 2*pi], v: [-pi, -pi/2] } }");
          return moved_subject(
-             composed_surface("{ type: fillet_surface, even: true, radius: 0.4, of: [{ type: plane, size: [8, 8] }, { "
-                              "type: cylinder_surface, radius: 1, height: 2 }] }"),
+             every_surface::surface_of(
+                 "{ type: fillet_surface, even: true, radius: 0.4, of: [{ type: plane, size: [8, 8] }, { "
+                 "type: cylinder_surface, radius: 1, height: 2 }] }"),
              offset, truth_of({part}, bounds(*part).diameter()));
        }},
       // Weights that are one function of u change nothing.

@@ -20,7 +20,6 @@
 #include "render/drawing/random_solids.h"
 #include "render/scene/build/load.h"
 #include "support/implicit_oracle.h"
-#include "support/line_oracle.h"
 #include "support/sight_oracle.h"
 #include "support/tier.h"
 
@@ -28,31 +27,6 @@ namespace lekalo::render::drawing_truth_test {
 namespace {
 
 using namespace geometry;
-// Of rational Bezier patches, by halving (support/line_oracle.h). `own`: nearer than this before a point a sheet passes
-// through it.
-Sheets sheets_of_patches(const SurfaceSet& surfaces, double own = kOwn) {
-  std::vector<oracle::PatchOracle> patches;
-  for (const SurfacePtr& surface : surfaces)
-    for (const SurfacePiece& piece : surface->pieces())
-      patches.emplace_back(piece.points, piece.degree_u, piece.degree_v);
-  return [patches, own](const Vec3& from, const Vec3& point, double contact) {
-    const double length = glm::length(point - from);
-    const Line line{from, (point - from) / length};
-    int layers = 0;
-    for (const oracle::PatchOracle& patch : patches) {
-      bool undecided = false;
-      for (const oracle::Root& root : patch.roots(line, &undecided)) {
-        const double before = length - root.t;
-        if (root.t <= 0 || before < (contact > 0 ? contact : own)) continue;
-        if (before < kOwnToo) return -1;
-        ++layers;
-      }
-      if (undecided) return -1;
-    }
-    return layers;
-  };
-}
-
 const std::vector<std::string> kAll = {"sharp", "smooth", "silhouette", "parameter"};
 
 TEST(DrawingTruth, SingleSolids) {

@@ -47,4 +47,12 @@ inline SurfacePtr example_surface(const std::string& name) {
   throw std::invalid_argument(name);
 }
 
+// The same, and less of it where it is long: what asks each patch for every line takes long then.
+inline SurfacePtr short_example(const std::string& name) {
+  if (name == "thread_surface") return surface_of("{ type: thread_surface, diameter: 10, length: 1.5 }");
+  if (name == "vintoid") return surface_of("{ type: vintoid, preset: toroid }");
+  if (name == "serpentine") return surface_of("{ type: serpentine, preset: coil, n: 1 }");
+  return example_surface(name);
+}
+
 }  // namespace lekalo::render::every_surface
