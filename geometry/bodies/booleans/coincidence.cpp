@@ -311,10 +311,10 @@ Curve2Ptr simple_image(const std::function<Vec3(double)>& image, const std::vect
 }  // namespace
 
 Curve2Ptr simple_image(const Surface& surface, const Curve2Ptr& image) {
-  // In a pole an image jumps: at an end its limit is meant.
+  // In a pole, whose parameter is known less well than others, an image jumps: at an end its limit is meant.
   const double size = parameter_size(surface);
   const Interval t = image->domain();
-  const double step = 1e-9 * t.width();
+  const double step = 1e-6 * t.width();
   const auto limit = [&](double end, double by) {
     const Vec3 near = image->point(end + by), far = image->point(end + 2 * by);
     return [=](double at) { return near + (at - (end + by)) / by * (far - near); };

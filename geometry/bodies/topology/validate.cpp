@@ -205,8 +205,17 @@ class Validation {
     return Vec2(coedge.image->point(coedge.forward == last ? domain.hi : domain.lo));
   }
 
+  // Images of vertices in the loops of one face: those of one vertex in one place are equal but for rounding.
+  using Corners = std::vector<std::pair<int, Vec2>>;
+  static Vec2 corner(int vertex, const Vec2& at, double near, Corners& known) {
+    for (const auto& [of, place] : known)
+      if (of == vertex && glm::length(place - at) <= near) return place;
+    known.emplace_back(vertex, at);
+    return at;
+  }
+
   // The loop as a polygon in the parameter plane, if asked with first sides of one length beside its vertices.
-  std::vector<Vec2> polygon(int loop, int count = kSamples, double first_side = 0) const {
+  std::vector<Vec2> polygon(int loop, int count = kSamples, double first_side = 0, Corners* corners = nullptr) const {
     std::vector<Vec2> result;
     for (int index : body_.loops[loop].coedges) {
       const Coedge& coedge = body_.coedges[index];
@@ -214,7 +223,11 @@ class Validation {
       if (first_side > 0) ts = beyond_ends(*coedge.image, ts, first_side);
       if (!coedge.forward) std::reverse(ts.begin(), ts.end());
       ts.pop_back();
+      const size_t begin = result.size();
       for (double t : ts) result.push_back(Vec2(coedge.image->point(t)));
+      if (corners)
+        result[begin] = corner(first_vertex(coedge), result[begin],
+                               kParameterRounding * bounds(*coedge.image).diameter(), *corners);
     }
     return result;
   }
@@ -288,9 +301,10 @@ class Validation {
     std::vector<Vec2> points;
     std::vector<std::vector<int>> polygons;
     double area = 0, all = 0;
+    Corners corners;
     for (const int loop : face.loops) {
       polygons.emplace_back();
-      const std::vector<Vec2> border = polygon(loop, count, first_side);
+      const std::vector<Vec2> border = polygon(loop, count, first_side, &corners);
       area += side * signed_area(border);
       all += std::abs(signed_area(border));
       for (const Vec2& p : border) {

@@ -277,11 +277,15 @@ class Cutting {
     return true;
   }
 
+  // Near, but not there, as lines end in the apex of a cone.
   bool ends_near(const Vec3& p) const {
+    const auto is_near = [&](const Vec3& end) {
+      const double apart = glm::length(end - p);
+      return apart < kShort * pair_.scale.size && apart > kResidual * (pair_.scale.size + glm::length(p));
+    };
     return std::any_of(found_.branches.begin(), found_.branches.end(), [&](const Contour& branch) {
       const Interval t = branch.curve->domain();
-      return !branch.closed && (glm::length(branch.curve->point(t.lo) - p) < kShort * pair_.scale.size ||
-                                glm::length(branch.curve->point(t.hi) - p) < kShort * pair_.scale.size);
+      return !branch.closed && (is_near(branch.curve->point(t.lo)) || is_near(branch.curve->point(t.hi)));
     });
   }
 

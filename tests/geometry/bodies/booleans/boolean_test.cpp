@@ -208,6 +208,29 @@ TEST(Boolean, HalvesOfACone) {
   expect_volumes_turned_too(cone, box(at(0, -3, -1), {3, 6, 4}), 0.5 * volume(cone));
 }
 
+// What lies below a tilted plane through a point of the axis.
+Body half_space(double height, double tilt) {
+  return transformed(box(at(-4, -4, -4), {8, 8, 4}),
+                     Affine::translation({0, 0, height}) * Affine::rotation(tilt, {1, 0, 0}));
+}
+
+// Across a pole, where the angle goes on to the other side.
+TEST(Boolean, TiltedPlanesThroughAPole) {
+  const Body a = ball(at(0, 0, 0), 1);
+  for (const double tilt : {0.3, 0.7, 1.1, 1.5}) {
+    const double cap = 1 - std::cos(tilt);
+    expect_volumes_turned_too(a, half_space(1, tilt), 4 * kPi / 3 - kPi * cap * cap * (3 - cap) / 3);
+  }
+}
+
+TEST(Boolean, TiltedPlanesThroughAnApex) {
+  const Body cone = frustum(at(0, 0, 0), 1, 0, 2);
+  for (const double tilt : {1.15, 1.3, 1.5}) {
+    const double chord = 2 / std::tan(tilt), segment = std::acos(chord) - chord * std::sqrt(1 - chord * chord);
+    expect_volumes_turned_too(cone, half_space(2, tilt), 2.0 / 3 * (kPi - segment));
+  }
+}
+
 // The hole that the pin leaves in the end touches its border.
 TEST(Boolean, PinThatTouchesFromInside) {
   const Body rod = cylinder_body(at(0, 0, 0), 1, 2);

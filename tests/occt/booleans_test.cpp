@@ -1,0 +1,120 @@
+// Booleans beside OCCT's: bodies of planes, cylinders, cones, balls and tori in general position, which it reads from
+// our STEP files. Where volumes differ or it gives none, identities and rays through the CSG say which of both is
+// wrong.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <BRepAlgoAPI_Common.hxx>
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <GProp_GProps.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <STEPControl_Reader.hxx>
+#include <Standard_Failure.hxx>
+#include <TopoDS_Shape.hxx>
+
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "geometry/bodies/booleans/body_pairs.h"
+#include "geometry/bodies/booleans/boolean_checks.h"
+#include "render/step/step_export.h"
+#include "support/tier.h"
+
+namespace lekalo::render::booleans_test {
+namespace {
+
+using geometry::Body;
+using geometry::BooleanOperation;
+
+constexpr double kVolume = 1e-6;  // of both operands'
+
+TopoDS_Shape read_back(const Body& body) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / fmt::format("lekalo_booleans_test_{}.step", getpid());
+  std::ofstream(path)
+      << step_file({{"b", std::make_shared<Body>(body), {}, geometry::Vec3(0.5)}}, "b", "mm", 1e-9).text;
+  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
+  STEPControl_Reader reader;
+  EXPECT_EQ(reader.ReadFile(path.c_str()), IFSelect_RetDone);
+  std::filesystem::remove(path);
+  reader.TransferRoots();
+  return reader.OneShape();
+}
+
+struct Answer {
+  double volume = 0;
+  std::string fault;
+};
+
+template <class Algorithm>
+Answer occt_volume(const TopoDS_Shape& a, const TopoDS_Shape& b) {
+  try {
+    Algorithm algorithm(a, b);
+    if (algorithm.HasErrors()) return {0, "an error"};
+    if (!BRepCheck_Analyzer(algorithm.Shape()).IsValid()) return {0, "not valid"};
+    GProp_GProps volume;
+    BRepGProp::VolumeProperties(algorithm.Shape(), volume, 1e-9);
+    return {volume.Mass(), ""};
+  } catch (const Standard_Failure& failure) {
+    return {0, fmt::format("thrown: {}", failure.DynamicType()->Name())};
+  }
+}
+
+Answer own_volume(BooleanOperation operation, const Body& a, const Body& b) {
+  try {
+    return {measure(boolean(operation, a, b)).volume.value, ""};
+  } catch (const geometry::BooleanError& error) {
+    return {0, error.empty ? "" : error.what()};
+  }
+}
+
+TEST(BooleansBesideOcct, Volumes) {
+  const int pairs = tests::tier_count(100, 6);
+  int refused = 0, failures_of_occt = 0;
+  double seconds = 0, seconds_of_occt = 0;
+  const auto timed = [](double& sum, const auto& work) {
+    const std::clock_t start = std::clock();
+    const Answer answer = work();
+    sum += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    return answer;
+  };
+  for (int k = 0; k < pairs; ++k) {
+    const geometry::BodyPair pair = geometry::BodyPairs(1000u + static_cast<unsigned>(k)).elementary();
+    const TopoDS_Shape a = read_back(pair.a), b = read_back(pair.b);
+    const double scale = measure(pair.a).volume.value + measure(pair.b).volume.value;
+    const auto compare = [&](const char* name, const Answer& own, const Answer& of_occt) {
+      if (!own.fault.empty()) {
+        ++refused;
+        std::cerr << k << ", " << pair.kind << ", " << name << ", refused: " << own.fault << "\n";
+      }
+      const double apart = std::abs(own.volume - of_occt.volume) / scale;
+      if (of_occt.fault.empty() && (apart <= kVolume || !own.fault.empty())) return;
+      ++failures_of_occt;
+      std::cerr << k << ", " << pair.kind << ", " << name << ", OCCT: " << of_occt.fault
+                << fmt::format(" volume {:.9g} beside {:.9g}\n", of_occt.volume, own.volume);
+      // Ours must be right then.
+      const geometry::BooleanReport report = check_booleans(pair.a, pair.b, static_cast<unsigned>(k));
+      for (const std::string& what : report.wrong) ADD_FAILURE() << k << ", " << pair.kind << ": " << what;
+    };
+    using enum BooleanOperation;
+    compare("or", timed(seconds, [&] { return own_volume(unite, pair.a, pair.b); }),
+            timed(seconds_of_occt, [&] { return occt_volume<BRepAlgoAPI_Fuse>(a, b); }));
+    compare("and", timed(seconds, [&] { return own_volume(intersect, pair.a, pair.b); }),
+            timed(seconds_of_occt, [&] { return occt_volume<BRepAlgoAPI_Common>(a, b); }));
+    compare("minus", timed(seconds, [&] { return own_volume(subtract, pair.a, pair.b); }),
+            timed(seconds_of_occt, [&] { return occt_volume<BRepAlgoAPI_Cut>(a, b); }));
+  }
+  tests::report_figure("refused", refused);
+  tests::report_figure("failures_of_OCCT", failures_of_occt);
+  std::cerr << fmt::format("{} pairs: {:.2f} s of processor time, OCCT {:.2f} s\n", pairs, seconds, seconds_of_occt);
+  EXPECT_LE(refused, 3 * pairs / 200);
+}
+
+}  // namespace
+}  // namespace lekalo::render::booleans_test
