@@ -4,10 +4,13 @@
 // images are met in the parameter plane.
 #include "geometry/queries/contours/body_contours.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
+#include <mutex>
 
 #include "geometry/bodies/trims/trim.h"
 #include "geometry/queries/contours/contour_approximation.h"
@@ -308,42 +311,77 @@ bool is_plane(const Surface& surface) {
   return dynamic_cast<const Plane*>(&surface) || (surface.bounded() && plane_lines(surface).surface);
 }
 
+// The edges of a body as polynomials: of what was searched every enclosure solves equations. Safe to use from many
+// threads.
+class SimpleEdges {
+ public:
+  explicit SimpleEdges(const Body& body) : body_(body), made_(body.edges.size()), curves_(body.edges.size()) {}
+  const Curve& of(int edge) {
+    std::call_once(made_[edge], [&] { curves_[edge] = contour_approximation(body_.edges[edge].curve, kNearCurve); });
+    return *curves_[edge];
+  }
+
+ private:
+  const Body& body_;
+  std::vector<std::once_flag> made_;
+  std::vector<CurvePtr> curves_;
+};
+
+// Where a contour of a face's whole surface crosses the face's edges.
+std::vector<Vec3> cuts_by_edges(const Contour& contour, const MeasuredContour& measured, const FaceOf& face,
+                                SimpleEdges& edges, double near) {
+  std::vector<Vec3> cuts;
+  const CurvePtr simple = contour_approximation(contour.curve, kNearCurve);
+  for (const int number : face.edges()) {
+    const Curve& edge = edges.of(number);
+    // The search for crossings takes long over common parts.
+    if (runs_along(edge, measured, near)) {
+      cuts.push_back(edge.point(edge.domain().lo));
+      cuts.push_back(edge.point(edge.domain().hi));
+      continue;
+    }
+    for (const CurveIntersection& intersection : intersect(*simple, edge).points) cuts.push_back(intersection.point);
+  }
+  return cuts;
+}
+
+// The silhouettes of a face's whole surface, and their cuts.
+struct FaceSilhouettes {
+  FaceOf face;
+  Contours found;
+  std::vector<std::vector<Vec3>> cuts;  // of each branch
+};
+
+void find(FaceSilhouettes& of, const ViewOf& view, SimpleEdges& edges, double size) {
+  // What is plane has none, or is one where it is seen edge-on: its edges show that.
+  if (is_plane(*of.face->surface)) return;
+  of.found = silhouette(of.face->surface, view);
+  std::vector<Contour> lines;
+  for (Contour& contour : of.found.branches) {
+    const MeasuredContour measured(contour);
+    // A side of the parameters that is one point: the normal vanishes all along it.
+    if (measured.length() <= kSameJoint * size) continue;
+    of.cuts.push_back(cuts_by_edges(contour, measured, of.face, edges, kSameJoint * size));
+    lines.push_back(std::move(contour));
+  }
+  of.found.branches = std::move(lines);
+}
+
 }  // namespace
 
 BodyContours silhouette(const Body& body, const ViewOf& view) {
   const double size = size_of(bounds(body));
+  SimpleEdges edges(body);
+  std::vector<FaceSilhouettes> faces;
+  for (int k = 0; k < count_of(body); ++k) faces.push_back({FaceOf(body, k), {}, {}});
+  tbb::parallel_for(size_t{0}, faces.size(), [&](size_t k) { find(faces[k], view, edges, size); });
   Joining joining(size);
-  // As polynomials: of what was searched every enclosure solves equations.
-  std::map<int, CurvePtr> simple_edges;
-  const auto simple_edge = [&](int number) -> const Curve& {
-    const auto [found, is_new] = simple_edges.try_emplace(number);
-    if (is_new) found->second = contour_approximation(body.edges[number].curve, kNearCurve);
-    return *found->second;
-  };
-  for (int k = 0; k < count_of(body); ++k) {
-    const FaceOf face(body, k);
-    // What is plane has none, or is one where it is seen edge-on: its edges show that.
-    if (is_plane(*face->surface)) continue;
-    const Contours found = silhouette(face->surface, view);
+  for (const auto& [face, found, cuts] : faces) {
     keep_points(joining, found, face, nullptr);
-    for (const Contour& contour : found.branches) {
-      const MeasuredContour measured(contour);
-      // A side of the parameters that is one point: the normal vanishes all along it.
-      if (measured.length() <= kSameJoint * size) continue;
-      std::vector<Vec3> cuts;
-      const CurvePtr simple = contour_approximation(contour.curve, kNearCurve);
-      for (const int number : face.edges()) {
-        const Curve& edge = simple_edge(number);
-        // The search for crossings takes long over common parts.
-        if (runs_along(edge, measured, kSameJoint * size)) {
-          cuts.push_back(edge.point(edge.domain().lo));
-          cuts.push_back(edge.point(edge.domain().hi));
-          continue;
-        }
-        for (const CurveIntersection& intersection : intersect(*simple, edge).points)
-          cuts.push_back(intersection.point);
-      }
-      joining.add(contour, cuts, k, -1, [&](double t) { return face.holds(contour.images[0]->point(t)); });
+    for (size_t k = 0; k < found.branches.size(); ++k) {
+      const Contour& contour = found.branches[k];
+      joining.add(contour, cuts[k], face.face, -1,
+                  [&, &of = face](double t) { return of.holds(contour.images[0]->point(t)); });
     }
   }
   return joining.joined();

@@ -3,6 +3,9 @@
 // the sign differs at its ends, as a part does where the function is monotone.
 #include "geometry/queries/contours/picture_cusps.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,9 +37,11 @@ class CuspSearch {
     const size_t most = kMaxParts * level.size();
     for (bool first = true; !level.empty(); first = false) {
       std::vector<Part> next;
-      for (const Part& part : level) {
+      const std::vector<Verdict> verdicts = decided(level);
+      for (size_t k = 0; k < level.size(); ++k) {
+        const Part& part = level[k];
         const bool certified = part.segment->is_certified();
-        const Verdict verdict = certified ? decide(part) : Verdict::unsure;
+        const Verdict verdict = verdicts[k];
         if (verdict == Verdict::none) continue;
         const bool is_small = part.t.width() <= kMinPart * length || (!first && level.size() > most);
         if (verdict == Verdict::monotone || !certified || is_small) {
@@ -66,6 +71,15 @@ class CuspSearch {
 
   // What intervals tell of m . (r' x i) over a part.
   enum class Verdict { none, monotone, unsure };
+
+  std::vector<Verdict> decided(const std::vector<Part>& parts) const {
+    std::vector<Verdict> verdicts(parts.size(), Verdict::unsure);
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, parts.size()), [&](const tbb::blocked_range<size_t>& some) {
+      for (size_t k = some.begin(); k < some.end(); ++k)
+        if (parts[k].segment->is_certified()) verdicts[k] = decide(parts[k]);
+    });
+    return verdicts;
+  }
 
   Verdict decide(const Part& part) const {
     const ContourSolution<2>::Ranges over = solution_.over(part.t, 2);

@@ -288,9 +288,10 @@ std::unique_ptr<LineTarget> make_line_target(SurfacePtr surface, std::shared_ptr
 }
 
 std::vector<std::unique_ptr<LineTarget>> make_line_targets(const Body& body, double min_area) {
-  std::vector<std::unique_ptr<LineTarget>> targets;
-  for (int face = 0; face < static_cast<int>(body.faces.size()); ++face)
-    targets.push_back(make_line_target(body.faces[face].surface, trim_of(body, face), min_area));
+  std::vector<std::unique_ptr<LineTarget>> targets(body.faces.size());
+  tbb::parallel_for(size_t{0}, targets.size(), [&](size_t k) {
+    targets[k] = make_line_target(body.faces[k].surface, trim_of(body, static_cast<int>(k)), min_area);
+  });
   return targets;
 }
 

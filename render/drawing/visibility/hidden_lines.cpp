@@ -1,5 +1,7 @@
 #include "render/drawing/visibility/hidden_lines.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -54,12 +56,15 @@ class Drawing {
     auto begin = std::chrono::steady_clock::now();
     result_.incomplete = work.incomplete;
     result_.incomplete_objects = std::move(work.incomplete_objects);
-    for (Stroke& stroke : work.strokes) {
-      simplify(stroke);
-      curves_.push_back(std::make_shared<ProjectedCurve>(stroke.curve, stroke.to_world, camera_, kReach));
-      if (stroke.kind == "self_intersection") self_intersections_.push_back(static_cast<int>(strokes_.size()));
-      strokes_.push_back(std::move(stroke));
-    }
+    strokes_ = std::move(work.strokes);
+    curves_.resize(strokes_.size());
+    own_outlines_.resize(strokes_.size());
+    each_line([&](size_t k) {
+      simplify(strokes_[k]);
+      curves_[k] = std::make_shared<ProjectedCurve>(strokes_[k].curve, strokes_[k].to_world, camera_, kReach);
+    });
+    for (size_t k = 0; k < strokes_.size(); ++k)
+      if (strokes_[k].kind == "self_intersection") self_intersections_.push_back(static_cast<int>(k));
     find_repeated_lines();
     piercings_.emplace(world_, strokes_);
     std::vector<const ProjectedCurve*> outlines;
@@ -67,19 +72,31 @@ class Drawing {
       if (strokes_[k].outlines) outlines.push_back(curves_[k].get()), outline_of_.push_back(static_cast<int>(k));
     const PictureCrossings crossings(outlines, camera_.width(), camera_.height());
     result_.statistics.seconds_of_lines = seconds_since(begin);
+    begin = std::chrono::steady_clock::now();
+    const auto is_asked = [&](size_t k) {
+      const bool is_border = work.fills && (strokes_[k].outlines || strokes_[k].borders);
+      return (strokes_[k].drawn || is_border) && !curves_[k]->cells().empty();
+    };
+    each_line([&](size_t k) {
+      if (is_asked(k)) own_outlines_of(static_cast<int>(k));
+    });
+    std::vector<std::vector<double>> events(strokes_.size());
     for (size_t k = 0; k < strokes_.size(); ++k) {
       if (progress_) progress_(static_cast<double>(k) / strokes_.size());
-      const bool is_border = work.fills && (strokes_[k].outlines || strokes_[k].borders);
-      if (!(strokes_[k].drawn || is_border) || curves_[k]->cells().empty()) continue;
-      begin = std::chrono::steady_clock::now();
-      const std::vector<double> events = events_of(static_cast<int>(k), crossings);
-      result_.statistics.seconds_of_crossings += seconds_since(begin);
-      begin = std::chrono::steady_clock::now();
-      VisibleLine line{strokes_[k], curves_[k], pieces_of(static_cast<int>(k), events)};
-      result_.statistics.seconds_of_rays += seconds_since(begin);
-      result_.statistics.pieces += static_cast<int>(line.pieces.size());
+      if (is_asked(k)) events[k] = events_of(static_cast<int>(k), crossings);
+    }
+    result_.statistics.seconds_of_crossings = seconds_since(begin);
+    begin = std::chrono::steady_clock::now();
+    std::vector<std::vector<VisiblePiece>> pieces(strokes_.size());
+    each_line([&](size_t k) {
+      if (is_asked(k)) pieces[k] = pieces_of(static_cast<int>(k), std::move(events[k]));
+    });
+    result_.statistics.seconds_of_rays = seconds_since(begin);
+    for (size_t k = 0; k < strokes_.size(); ++k) {
+      if (!is_asked(k)) continue;
+      result_.statistics.pieces += static_cast<int>(pieces[k].size());
       ++result_.statistics.lines;
-      result_.lines.push_back(std::move(line));
+      result_.lines.push_back({strokes_[k], curves_[k], std::move(pieces[k])});
     }
     for (const Mark& mark : work.marks) {
       const PicturePoint at = camera_.project(mark.point);
@@ -95,6 +112,12 @@ class Drawing {
   }
 
  private:
+  // Lines are apart from one another but for their crossings.
+  template <class Visit>
+  void each_line(const Visit& visit) const {
+    tbb::parallel_for(size_t{0}, strokes_.size(), visit);
+  }
+
   // Contours that solve their equations at every point are asked too often for that. Silhouettes of fitted copies are
   // no better than the copies.
   static void simplify(Stroke& stroke) {
@@ -226,9 +249,8 @@ class Drawing {
       add_silhouette_crossings(*stroke.curve, *supporting_surface.surface, *supporting_surface.image, view, events);
   }
 
-  // Twins ask for one another's.
+  // Twins ask for one another's, when all lines that are asked for have theirs.
   const std::vector<double>& own_outlines_of(int line) {
-    own_outlines_.resize(strokes_.size());
     if (!own_outlines_[line]) add_own_outlines(strokes_[line], own_outlines_[line].emplace());
     return *own_outlines_[line];
   }

@@ -1,6 +1,7 @@
 // How many sheets a place of a line lies behind: a ray from the eye counts them (Golovanov 2016, 8.3).
 #pragma once
 
+#include <atomic>
 #include <optional>
 
 #include "render/lines/projected_curve.h"
@@ -8,6 +9,7 @@
 
 namespace lekalo::render {
 
+// Safe to use from many threads.
 class QuantitativeInvisibility {
  public:
   // A sheet that passes nearer than this to a point of a line, of the scene's radius, is that on which the line lies.
@@ -52,7 +54,7 @@ class QuantitativeInvisibility {
   const World& world_;
   const Camera& camera_;
   Vec3 eye_;
-  int rays_ = 0;
+  std::atomic<int> rays_ = 0;
 };
 
 }  // namespace lekalo::render
