@@ -1,6 +1,7 @@
 // The curve's own enclosures bound r', r'' and the place on the surface over a part of it, hence m . (r' x i) and its
-// derivative. Parts where the one may be zero and the other too are halved; what stays is joined. It holds a cusp if
-// the sign differs at its ends, as a part does where the function is monotone.
+// derivative; where the surface bends along the line of sight there is none. Parts where the one may be zero and the
+// other too are halved; what stays is joined. It holds a cusp if the sign differs at its ends, as a part does where the
+// function is monotone.
 #include "geometry/queries/contours/picture_cusps.h"
 
 #include <tbb/blocked_range.h>
@@ -37,7 +38,7 @@ class CuspSearch {
     const size_t most = kMaxParts * level.size();
     for (bool first = true; !level.empty(); first = false) {
       std::vector<Part> next;
-      const std::vector<Verdict> verdicts = decided(level);
+      const std::vector<Verdict> verdicts = decided(level, first);
       for (size_t k = 0; k < level.size(); ++k) {
         const Part& part = level[k];
         const bool certified = part.segment->is_certified();
@@ -72,13 +73,38 @@ class CuspSearch {
   // What intervals tell of m . (r' x i) over a part.
   enum class Verdict { none, monotone, unsure };
 
-  std::vector<Verdict> decided(const std::vector<Part>& parts) const {
+  std::vector<Verdict> decided(const std::vector<Part>& parts, bool are_segments) const {
     std::vector<Verdict> verdicts(parts.size(), Verdict::unsure);
     tbb::parallel_for(tbb::blocked_range<size_t>(0, parts.size()), [&](const tbb::blocked_range<size_t>& some) {
-      for (size_t k = some.begin(); k < some.end(); ++k)
-        if (parts[k].segment->is_certified()) verdicts[k] = decide(parts[k]);
+      for (size_t k = some.begin(); k < some.end(); ++k) {
+        if (!parts[k].segment->is_certified()) continue;
+        verdicts[k] = are_segments && bends_along_sight(*parts[k].segment) ? Verdict::none : decide(parts[k]);
+      }
     });
     return verdicts;
+  }
+
+  // Where the line of sight i touches, the surface bends along it: with m . s_uu and so on, and i = (a s_u + b
+  // s_v)/m^2, a^2 L + 2 a b M + b^2 N is not 0. A line that ran along i there would leave the silhouette. Needs no
+  // enclosure of the curve.
+  bool bends_along_sight(const ContourSegment<2>& segment) const {
+    const ParameterBox<2> domain = segment.equations->domain();
+    const Rectangle box{intersect(segment.tube[0], domain[0]), intersect(segment.tube[1], domain[1])};
+    if (box.u.empty() || box.v.empty()) return false;
+    const SurfaceEnclosure s = surface_.enclose(box, 2);
+    const Triple<Interval> s_u = derivative_of(s, 1, 0), s_v = derivative_of(s, 0, 1), m = cross(s_u, s_v);
+    const Triple<Interval> sight = sight_at(s.d(0, 0));
+    const Interval a = dot(cross(sight, s_v), m), b = dot(cross(s_u, sight), m);
+    const Interval bend = sqr(a) * dot(m, derivative_of(s, 2, 0)) +
+                          Interval(2) * a * b * dot(m, derivative_of(s, 1, 1)) +
+                          sqr(b) * dot(m, derivative_of(s, 0, 2));
+    return !bend.contains(0);
+  }
+
+  Triple<Interval> sight_at(const Box3& points) const {
+    const Vec3& from = view_.direction_or_eye;
+    const Triple<Interval> sight{Interval(from.x), Interval(from.y), Interval(from.z)};
+    return view_.central ? ranges(points) - sight : sight;
   }
 
   Verdict decide(const Part& part) const {
@@ -91,9 +117,7 @@ class CuspSearch {
     if (box.u.empty() || box.v.empty()) return Verdict::unsure;
     const SurfaceEnclosure s = surface_.enclose(box, 2);
     const Triple<Interval> s_u = derivative_of(s, 1, 0), s_v = derivative_of(s, 0, 1), normal = cross(s_u, s_v);
-    const Vec3& from = view_.direction_or_eye;
-    Triple<Interval> sight{Interval(from.x), Interval(from.y), Interval(from.z)};
-    if (view_.central) sight = ranges(over.point[0]) - sight;
+    const Triple<Interval> sight = sight_at(over.point[0]);
     const Triple<Interval> across = cross(ranges(over.point[1]), sight);
     if (!dot(normal, across).contains(0)) return Verdict::none;
     // The derivative; that of the sight is r' or nothing, and adds nothing.

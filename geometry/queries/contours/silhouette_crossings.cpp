@@ -75,12 +75,19 @@ struct SightAlong {
   static Triple<Interval> vec(const Box3& b) { return {range(b, 0), range(b, 1), range(b, 2)}; }
 };
 
+constexpr std::array kShares{0.52, 0.013, 0.97, 0.29, 0.78, 0.11, 0.63, 0.41, 0.87};
+
 // A section of a cylinder through its axis, seen along the plane's normal, say: it goes round nowhere, and a search
 // would halve all of it down to the smallest boxes.
 bool lies_along_silhouette(const SightAlong& system, const Interval& t) {
-  constexpr std::array kShares{0.52, 0.013, 0.97, 0.29, 0.78, 0.11, 0.63, 0.41, 0.87};
   return std::all_of(kShares.begin(), kShares.end(),
                      [&](double share) { return system.vanishes(t.lo + share * t.width()); });
+}
+
+// Along a line in which the surface has a crease bounds hold for both of its sides, and a search would do the same.
+bool is_clear_somewhere(const SightAlong& system, const Interval& t) {
+  return std::any_of(kShares.begin(), kShares.end(),
+                     [&](double share) { return !system.values({Interval(t.lo + share * t.width())})[0].contains(0); });
 }
 
 void add_sign_changes(const SightAlong& system, const Interval& t, std::vector<double>& turns) {
@@ -111,6 +118,7 @@ void add_silhouette_crossings(const Curve& line, const Surface& surface, const C
   options.max_boxes = 2000;
   const auto search = [&](const Interval& t) {
     if (lies_along_silhouette(system, t)) return;
+    if (!is_clear_somewhere(system, t)) return add_sign_changes(system, t, turns);
     const auto found = search_roots<1, 1>(system, ParameterBox<1>{t}, options);
     for (const auto& root : found.isolated) turns.push_back(root[0]);
     for (const auto& open : found.open) add_sign_changes(system, open[0], turns);
