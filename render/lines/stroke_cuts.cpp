@@ -172,7 +172,7 @@ void StrokeCollector::add_cut_edges(std::string_view kind, const Style& style, c
     cap_ = nullptr;
   }
   const auto* body = std::get_if<BodyPtr>(&object_->shape);
-  if (!body) return;
+  if (!body || planes.size() < 2) return;
   // Where two planes meet inside of it, along the line through p.
   const LineIntersector intersector(**body);
   for (size_t i = 0; i < planes.size(); ++i)
