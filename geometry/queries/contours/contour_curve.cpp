@@ -9,6 +9,8 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr int kMaxSteps = 40;
+// Of the parameters' ranges: a step that changes nothing any more.
+constexpr double kRest = 1e-17;
 constexpr int kContractions = 4;
 // Of a box that is to hold the solution by Krawczyk's operator.
 constexpr int kInflations = 6;
@@ -116,6 +118,8 @@ ParameterPoint<N> ContourSolution<N>::solve(const ContourSegment<N>& segment, do
     }
     if (!std::isfinite(length)) return start;
     if (length <= 4e-16 || (length < 1e-12 && length >= 0.5 * before)) break;
+    // The next step by the convergence of this one, which is quadratic where there is one solution.
+    if (segment.is_certified() && step > 0 && length < 1e-3 * before && length * sqr(length / before) <= kRest) break;
     before = length;
   }
   if (segment.is_certified())
