@@ -25,6 +25,11 @@ class ColorBar(ProgramTest):
         self.assertFalse(">0.8<" in text)
         self.assertGreater(text.count('class="colored'), 0)
 
+    def test_minus_signs(self):
+        self.write("scene.yaml", SCENE.format("range: [-10, 10]"))
+        self.run_program("draw", "scene.yaml", "-o", "bar.svg", "--quiet")
+        self.assertIn(">−10<", self.bytes_of("bar.svg").decode())
+
     def test_errors(self):
         for fields, message in [("by: curvature", "either the 'range' of its numbers or a curve 'of'"),
                                 ("of: c, range: [0, 1]", "either the 'range' of its numbers or a curve 'of'"),

@@ -734,6 +734,15 @@ image: {{ size: [80 mm, 50 mm], margin: 3 mm }}
             for axis in "xy":
                 self.assertGreaterEqual(len(self.ticks(f"{{ {axis}: {{}} }}", curve)[0]), 3, (axis, curve))
 
+    def test_numbers_of_ticks(self):
+        """Each mark has a number of its own; what is very large or small has a power of ten, the same for all."""
+        for y, numbers in [("100000 + 0.2*x", ["99999.6", "99999.8", "100000", "100000.2", "100000.4"]),
+                           ("1e9 + x", ["999999998", "1000000000", "1000000002"]),
+                           ("5e5*x", ["−106", "0", "106"]),
+                           ("1e-7*x", ["−2·10−7", "0", "2·10−7"])]:
+            self.assertEqual(self.ticks("{ y: {} }", f"y: {y}, domain: [-2, 2]")[0], numbers)
+        self.assertEqual(self.ticks("{ x: { ticks: [0, 1/3, pi] } }")[0], ["0", "0.333333", "3.14159"])
+
     def test_panels_without_a_place(self):
         """A panel that the layout does not name is said to be left out, unless it has a file of its own."""
         scene = """lekalo: 1

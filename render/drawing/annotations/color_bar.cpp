@@ -5,6 +5,7 @@
 
 #include "render/drawing/annotations/page_shapes.h"
 #include "render/model/color_scale.h"
+#include "render/model/numbers.h"
 
 namespace lekalo::render {
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr int kStops = 33;     // of the gradient
 constexpr double kTick = 0.8;  // millimetres
+constexpr int kDigits = 3;     // of the numbers, more where they differ only there
 
 // Its own numbers, those of a curve, or those of the ground, which a trial of the page does not know yet.
 PictureScale scale_of(const AnnotationWork& work) {
@@ -47,8 +49,9 @@ std::vector<Gradient::Stop> stops_of(const PictureScale& scale) {
 
 std::vector<double> ticks_of(const PictureScale& scale, const Fields& f) {
   const ParameterValues& asked = f.get<ParameterValues>("ticks");
-  if (asked.count == 0) return asked.values;
-  return round_numbers(scale.range, asked.count);
+  std::vector<double> ticks = asked.count == 0 ? asked.values : round_numbers(scale.range, asked.count);
+  std::erase_if(ticks, [&](double tick) { return !scale.range.contains(tick); });
+  return ticks;
 }
 
 }  // namespace
@@ -70,11 +73,12 @@ void add_color_bar(AnnotationWork& work) {
   bar.gradient = Gradient{false, corner, corner + (lies ? Vec2(size.x, 0) : Vec2(0, -size.y)), {}};
   bar.gradient->stops = stops_of(scale);
   std::vector<SheetItem> items{bar};
-  for (const double tick : ticks_of(scale, f)) {
-    if (!range.contains(tick)) continue;
-    const double part = (tick - range.lo) / range.width();
+  const std::vector<double> ticks = ticks_of(scale, f);
+  const std::vector<std::string> numbers = numbers_of_scale(ticks, kDigits);
+  for (size_t k = 0; k < ticks.size(); ++k) {
+    const double part = (ticks[k] - range.lo) / range.width();
     items.emplace_back(drawn(straight_path({at(part, 0), at(part, kTick)}), work.look()));
-    Label number = work.page_label(dimension_number(tick), at(part, kTick));
+    Label number = work.page_label(numbers[k], at(part, kTick));
     number.on_page = true;
     number.side = lies ? "below" : "right";
     number.distance = 0.4;

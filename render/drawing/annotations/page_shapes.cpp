@@ -8,6 +8,7 @@
 #include "geometry/body.h"
 #include "geometry/curves/operations/parameter_line.h"
 #include "geometry/queries/differential/roundness.h"
+#include "render/model/numbers.h"
 
 namespace lekalo::render {
 
@@ -72,8 +73,7 @@ std::string dimension_number(double value) {
   // One digit before the point and the others, then the power: 5.0e-05.
   const std::string text = fmt::format("{:.{}e}", value, kDigits - 1);
   const std::string digits = dimension_number(std::stod(text.substr(0, text.find('e'))), kDigits - 1);
-  return fmt::format("${}10^{{{}}}$", digits == "1" ? "" : digits + "\\cdot ",
-                     std::stoi(text.substr(text.find('e') + 1)));
+  return fmt::format("${}$", times_power_of_ten(digits, std::stoi(text.substr(text.find('e') + 1))));
 }
 
 }  // namespace lekalo::render

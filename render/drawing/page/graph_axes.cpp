@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/drawing/page/legend.h"
+#include "render/model/numbers.h"
 
 namespace lekalo::render {
 
@@ -20,6 +21,7 @@ constexpr double kFromNumbers = 1.2;  // to the axis's name
 constexpr double kPerTick = 14;       // of an axis, for each mark of `auto`
 constexpr size_t kFewTicks = 3;       // so many of `auto` are wished for, nearer to one another if need be
 constexpr double kBetweenNumbers = 2.5;
+constexpr int kDigits = 6;          // of the numbers, more where they differ only there
 constexpr double kLine = 0.5;       // for the width of lines at the edge of a graph
 constexpr double kFromEdge = 0.35;  // of texts from the page's
 constexpr double kNearEnd = 0.02;   // of a range: texts so near to its end need room beyond it
@@ -33,13 +35,6 @@ struct Ranges {
 Ranges ranges_of(const Camera& camera) {
   const Vec3 upper = camera.ray(0, 0).origin, lower = camera.ray(camera.width(), camera.height()).origin;
   return {{upper.x, lower.x}, {lower.y, upper.y}};
-}
-
-std::string tick_text(double value) {
-  const double rounded = std::abs(value) < 1e-12 ? 0.0 : value;
-  std::string text = fmt::format("{:.6g}", rounded);
-  if (text.front() == '-') text.replace(0, 1, "−");
-  return text;
 }
 
 struct KnotMarks {
@@ -138,14 +133,15 @@ class Axes {
       if (value >= range.lo - slack && value <= range.hi + slack)
         inside.push_back(value);
       else
-        work_.left_out.push_back(fmt::format("the tick {} of the {} axis, which shows {} to {}", tick_text(value), name,
-                                             tick_text(range.lo), tick_text(range.hi)));
+        work_.left_out.push_back(fmt::format("the tick {:.9g} of the {} axis, which shows {:.9g} to {:.9g}", value,
+                                             name, range.lo, range.hi));
     return with_numbers(inside);
   }
 
   std::vector<Tick> with_numbers(const std::vector<double>& values) const {
     std::vector<Tick> result;
-    for (const double value : values) result.emplace_back(value, text_in(style_, tick_text(value)));
+    const std::vector<std::string> texts = numbers_of_scale(values, kDigits);
+    for (size_t k = 0; k < values.size(); ++k) result.emplace_back(values[k], text_in(style_, texts[k]));
     return result;
   }
 
