@@ -526,10 +526,19 @@ class Imprinting {
       return;
     }
     const int index = add_strand(std::move(strand));
-    const bool in_both = add_inner(0, f, index, simple_image(*face(0, f).surface, part_of(images[0], t))) &&
-                         add_inner(1, g, index, simple_image(*face(1, g).surface, part_of(images[1], t)));
+    const Curve2Ptr on_f = simple_part(0, f, images[0], t), on_g = simple_part(1, g, images[1], t);
+    const bool in_both = add_inner(0, f, index, on_f) && add_inner(1, g, index, on_g);
     if (!in_both)
       throw BooleanError("a curve of intersection runs along the border of a face but not on it", curve->point(middle));
+  }
+
+  // Of one that solves its equations anew everywhere trims would never find monotone parts.
+  Curve2Ptr simple_part(int side, int f, const Curve2Ptr& image, const Interval& t) const {
+    const Curve2Ptr part = part_of(image, t), simple = simple_image(*face(side, f).surface, part);
+    if (simple == part && !part->pieces().front().is_rational())
+      throw BooleanError("two faces touch or nearly touch on a curve in which they meet: it is not known well enough",
+                         face(side, f).surface->point(part->point(t.lo).x, part->point(t.lo).y));
+    return simple;
   }
 
   // The part of an edge, on the border or inside of either face, that a point lies on.

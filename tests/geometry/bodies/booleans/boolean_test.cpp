@@ -189,6 +189,13 @@ TEST(Boolean, VoidsAndLumps) {
   EXPECT_NEAR(volume(cut), 18, 1e-12);
 }
 
+// The plane touches the inner equator in a point of the seam and cuts a figure of eight: not made, but said so at once.
+TEST(Boolean, TorusTouchedAtItsInnerEquator) {
+  const Body ring = torus_body(at(0, 0, 0), 3, 1);
+  for (const BooleanOperation operation : {kUnite, kIntersect, kSubtract})
+    EXPECT_THROW(boolean(operation, ring, box(at(2, -4, -2), {4, 8, 4})), BooleanError);
+}
+
 TEST(Boolean, HalvesOfATorus) {
   const Body ring = torus_body(at(0, 0, 0), 2, 0.5);
   // Through the axis and across it.
