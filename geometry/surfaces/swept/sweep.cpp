@@ -29,9 +29,10 @@ struct SectionLaws {
   ScalarLaw twist{0}, scale_x{1}, scale_y{1}, pitch{0}, yaw{0};
 };
 
-// Where the frame and the laws carry the k-th unit vector of a section's coordinates.
+// Where the frame and the laws carry the k-th unit vector of a section's coordinates. With a rail h the section's x
+// reaches from the path to it, d = h - g, and all of it grows by |d|: n = d/|d|, b along g' x n, and n x b for t.
 struct SectionAxis {
-  CurvePtr path, across;  // g and n
+  CurvePtr path, across, rail;  // g, n, and h in place of n
   SectionLaws laws;
   int k;
 
@@ -43,7 +44,14 @@ struct SectionAxis {
     turn(laws.yaw, v, q.z, q.x);
     turn(laws.pitch, v, q.y, q.z);
     turn(laws.twist, v, q.x, q.y);
-    const Triple<T> along = curve_at(*path, v, 1), n = curve_at(*across, v);
+    const Triple<T> along = curve_at(*path, v, 1);
+    if (rail) {
+      const Triple<T> d = curve_at(*rail, v) - curve_at(*path, v), side = cross(along, d);
+      const T reach = length(d);
+      const Triple<T> b = (reach / length(side)) * side;
+      return q.x * d + q.y * b + q.z * ((1.0 / reach) * cross(d, b));
+    }
+    const Triple<T> n = curve_at(*across, v);
     const Triple<T> t = (1.0 / length(along)) * along;
     return q.x * n + q.y * cross(t, n) + q.z * t;
   }
@@ -64,18 +72,52 @@ struct SectionAxis {
 // Polynomials where those agree with the axes to this share, as the direction across does: they are asked for often.
 constexpr double kSameAxis = 1e-13;
 
-std::array<CurvePtr, 3> section_axes(const CurvePtr& path, const CurvePtr& across, const SectionLaws& laws,
-                                     const Interval& range) {
-  CurveProperties properties = properties_of(*path, 1);
-  add_operand(properties, *across);
+std::array<CurvePtr, 3> section_axes(const SectionAxis& axis, const Interval& range) {
+  CurveProperties properties = properties_of(*axis.path, 1);
+  add_operand(properties, axis.rail ? *axis.rail : *axis.across);
   cut_to(properties, range);
   properties.period = 0;
   std::array<CurvePtr, 3> axes;
   for (int k = 0; k < 3; ++k) {
-    axes[k] = as_polynomials(
-        std::make_shared<ComposedCurve<SectionAxis>>(SectionAxis{path, across, laws, k}, properties), kSameAxis);
+    SectionAxis of_unit = axis;
+    of_unit.k = k;
+    axes[k] = as_polynomials(std::make_shared<ComposedCurve<SectionAxis>>(of_unit, properties), kSameAxis);
   }
   return axes;
+}
+
+// The direction from the path to another curve, less what of it lies along the path.
+struct Towards {
+  CurvePtr path, other;
+  template <class T>
+  Triple<T> operator()(const T& v) const {
+    const Triple<T> along = curve_at(*path, v, 1), d = curve_at(*other, v) - curve_at(*path, v);
+    const Triple<T> across = d - (dot(d, along) / dot(along, along)) * along;
+    return (1.0 / length(across)) * across;
+  }
+};
+
+// The curve must stand beside the path: places looked at, and the least sine of the angle between its direction and the
+// path's.
+constexpr int kPlacesBeside = 256;
+constexpr double kLeastSine = 1e-6;
+
+void check_beside(const Curve& path, const Curve& other, const char* field) {
+  const double size = bounds(path).diameter();
+  const Interval range = path.domain();
+  for (int i = 0; i <= kPlacesBeside; ++i) {
+    const double v = range.lo + range.width() * i / kPlacesBeside;
+    const CurveJet at = path.evaluate(v, 1);
+    const Vec3 d = other.point(v) - at.d[0];
+    if (!(glm::length(d) > kLeastSine * size))
+      throw FieldError(field, fmt::format("the curve meets the path at s = {:.6g}", (v - range.lo) / range.width()),
+                       "it runs beside the path");
+    if (!(glm::length(glm::cross(d, at.d[1])) > kLeastSine * glm::length(d) * glm::length(at.d[1])))
+      throw FieldError(
+          field,
+          fmt::format("at s = {:.6g} the curve lies in the direction of the path", (v - range.lo) / range.width()),
+          "it runs beside the path");
+  }
 }
 
 // A section in the coordinates of the frame where it stands.
@@ -126,7 +168,11 @@ std::vector<CurvePtr> functions_between(const std::vector<double>& at) {
 FrameLaw read_frame(const Fields& f) {
   FrameLaw law;
   if (f.holds<Fields>("frame")) {
+    if (f.group("frame").has("fixed") == f.group("frame").has("given"))
+      throw FieldError("frame", "a frame follows a direction or a curve",
+                       "give { fixed: direction }, or { given: curve }");
     law.kind = FrameKind::fixed;
+    if (f.group("frame").has("given")) return law;
     law.fixed = f.group("frame").vec3("fixed");
   } else {
     law.kind = f.text("frame") == "frenet" ? FrameKind::normal : FrameKind::rotation_minimizing;
@@ -137,6 +183,37 @@ FrameLaw read_frame(const Fields& f) {
     law.start = f.vec3("start");
   }
   return law;
+}
+
+// The path's parameter or its frame is not smooth: said of the fields of a sweep in place of those of a curve's ribbon.
+[[noreturn]] void refuse_path(const FieldError& error, const FrameLaw& law, const char* field) {
+  if (error.field == "across")
+    throw FieldError("frame", error.what(),
+                     law.kind == FrameKind::normal ? "frame: rotation_minimizing suits any smooth curve" : error.hint);
+  if (error.field == "of")
+    throw FieldError(field, error.what(), "sweep along smooth parts of it, or round its corners (rounded_corners)");
+  throw error;
+}
+
+// The frame's normal along the path. `other`: of a curve that it looks at, over the path's parameter.
+CurvePtr frame_along(const CurvePtr& path, const CurvePtr& other, const FrameLaw& law, const char* field) {
+  if (other) {
+    check_beside(*path, *other, "frame");
+    CurveProperties properties = properties_of(*path, 1);
+    add_operand(properties, *other);
+    return as_polynomials(std::make_shared<ComposedCurve<Towards>>(Towards{path, other}, properties), kSameAxis);
+  }
+  try {
+    return direction_across(*path, law);
+  } catch (const FieldError& error) {
+    refuse_path(error, law, field);
+  }
+}
+
+// The curve that the frame's normal looks at; null: none.
+CurvePtr given_curve(const Fields& f) {
+  const bool is_given = f.holds<Fields>("frame") && f.group("frame").has("given");
+  return is_given ? f.group("frame").curve("given") : nullptr;
 }
 
 std::vector<double> read_places(const Fields& f, size_t count, const Curve& guide) {
@@ -174,12 +251,14 @@ SurfacePtr swept(const CurvePtr& path, const std::array<CurvePtr, 3>& axes, cons
 SurfacePtr loft_along(const Fields& f, const std::vector<CurvePtr>& curves) {
   const CurvePtr guide = f.curve("along");
   const std::vector<double> at = read_places(f, curves.size(), *guide);
-  const CurvePtr across = direction_across(*guide, read_frame(f));
+  CurvePtr other = given_curve(f);
+  if (other && other->domain() != guide->domain()) other = with_domain(other, guide->domain());
+  const CurvePtr across = frame_along(guide, other, read_frame(f), "along");
   Family sections{{}, step_functions(at)};
   for (size_t i = 0; i < curves.size(); ++i)
     sections.curves.push_back(in_frame(curves[i], frame_at(*guide, *across, at[i])));
   const Interval range(at.front(), at.back());
-  return swept(guide, section_axes(guide, across, {}, range), sections, range, 0);
+  return swept(guide, section_axes({guide, across, nullptr, {}, 0}, range), sections, range, 0);
 }
 
 SectionLaws read_laws(const Fields& f) {
@@ -189,7 +268,14 @@ SectionLaws read_laws(const Fields& f) {
 }
 
 FieldType frame_kind() {
-  return group({{"fixed", direction(), "the normal is as near as possible to this direction", true, {}}})
+  return group(
+             {{"fixed", direction(), "the normal is as near as possible to this direction", false, {}},
+              {"given",
+               reference({Category::curve}),
+               "or the normal looks at the point of this curve at the same fraction of its length (of a guide, of its "
+               "parameter)",
+               false,
+               {}}})
       .or_word({"rotation_minimizing", "frenet"});
 }
 
@@ -197,7 +283,8 @@ std::any sweep(const Fields& f) {
   const SectionMotion motion(f);
   Placed placed = read_sections(f);
   if (f.boolean("placed"))
-    for (CurvePtr& curve : placed.curves) curve = in_frame(curve, motion.frame(0));
+    for (CurvePtr& curve : placed.curves)
+      curve = transformed(in_frame(curve, motion.frame(0)), Affine::scaling(Vec3(1 / motion.reach(0))));
   const std::vector<CurvePtr> curves = placed.curves.size() == 1 ? placed.curves : one_domain(placed.curves, f);
   return std::any(motion.surface(curves, placed.at));
 }
@@ -209,12 +296,33 @@ SurfacePtr guided_loft(const Fields& f, const std::vector<CurvePtr>& curves) { r
 FieldType guide_frame() { return frame_kind(); }
 
 SectionMotion::SectionMotion(const Fields& f) {
-  path_ = by_length_fraction(f.curve("path"));
-  across_ = direction_across(*path_, read_frame(f));
-  axes_ = section_axes(path_, across_, read_laws(f), {0, 1});
+  const FrameLaw law = read_frame(f);
+  CurvePtr other = given_curve(f);
+  try {
+    path_ = by_length_fraction(f.curve("path"));
+  } catch (const FieldError& error) {
+    refuse_path(error, law, "path");
+  }
+  if (f.has("rail")) {
+    if (f.given("frame") || f.has("start"))
+      throw FieldError("rail", "the rail turns the section", "leave out 'frame' and 'start'");
+    rail_ = by_length_fraction(f.curve("rail"));
+    check_beside(*path_, *rail_, "rail");
+  } else {
+    if (other) other = by_length_fraction(other);
+    across_ = frame_along(path_, other, law, "path");
+  }
+  axes_ = section_axes({path_, across_, rail_, read_laws(f), 0}, {0, 1});
 }
 
-Frame SectionMotion::frame(double v) const { return frame_at(*path_, *across_, v); }
+Frame SectionMotion::frame(double v) const {
+  if (!rail_) return frame_at(*path_, *across_, v);
+  const CurveJet at = path_->evaluate(v, 1);
+  const Vec3 n = glm::normalize(rail_->point(v) - at.d[0]), b = glm::normalize(glm::cross(at.d[1], n));
+  return {at.d[0], n, b, glm::cross(n, b)};
+}
+
+double SectionMotion::reach(double v) const { return rail_ ? glm::length(rail_->point(v) - path_->point(v)) : 1; }
 
 Affine SectionMotion::placement(double v) const {
   return {Mat3(axes_[0]->point(v), axes_[1]->point(v), axes_[2]->point(v)), path_->point(v)};
@@ -236,7 +344,7 @@ TypeDeclaration guided_loft_type() {
       .field("at_v", numbers(), "the guide's parameter at each curve, increasing")
       .field("frame", frame_kind(),
              "how the guide's frame turns: no more than it must, as the guide's normal and binormal, or { fixed: "
-             "direction }",
+             "direction }, or { given: curve }",
              "rotation_minimizing")
       .field("match", choice({"parameter", "arc_length"}), "which points of the curves belong together", "parameter")
       .built_by([](const Fields& f) { return std::any(guided_loft(f, read_family(f, "of"))); });
@@ -246,7 +354,7 @@ void declare_motion(TypeDeclaration& type) {
   type.field("frame", frame_kind(),
              "how it turns: about the path no more than it must (and closing with a closed path), as the path's normal "
              "and "
-             "binormal, or { fixed: direction }",
+             "binormal, or { fixed: direction }, or { given: curve }",
              "rotation_minimizing")
       .optional("start", direction(), "of rotation_minimizing: the direction of the normal where the path begins")
       .field("twist", angle_formula({"s"}), "further turn about the path, as a formula of s", "0")
@@ -274,6 +382,10 @@ TypeDeclaration sweep_surface_type() {
                       {"section", reference({Category::curve}), "the curve there", true, {}}}),
               "several in place of one, the first at s: 0, the last at s: 1; between them the shape changes smoothly");
   declare_motion(type);
+  type.optional(
+      "rail", reference({Category::curve}),
+      "a second rail beside the path, by the fraction of its length: the section's x runs to it in place of a "
+      "frame's normal, and the section grows with the distance: (0, 0) stays on the path, (1, 0) on the rail");
   type.field("match", choice({"parameter", "arc_length"}), "which points of several sections belong together",
              "parameter")
       .field("placed", boolean(), "the section stands in space as it is at the path's beginning", "false")

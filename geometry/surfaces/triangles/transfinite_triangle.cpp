@@ -103,15 +103,25 @@ std::array<CurvePtr, 3> in_a_round(const Fields& f) {
   }
   if (given.size() != 3) throw FieldError("of", fmt::format("three curves are needed, not {}", given.size()));
   const double near = kMeeting * box.diameter();
-  const auto meet = [&](const Vec3& a, const Vec3& b) { return glm::length(a - b) <= near; };
+  // The widest gap between the end of a curve and the beginning of the next, of the way round where that is smallest.
+  struct Gap {
+    double width = kInfinity;
+    int behind = 0;
+  } smallest;
   for (const int turned : {0, 1, 2, 3, 4, 5, 6, 7}) {
     std::array<CurvePtr, 3> c;
     for (int k = 0; k < 3; ++k) c[k] = turned >> k & 1 ? reversed_curve(given[k]) : given[k];
-    bool closed = true;
-    for (int k = 0; k < 3; ++k) closed = closed && meet(c[k]->point(0), c[(k + 1) % 3]->point(1));
-    if (closed) return c;
+    Gap widest{0};
+    for (int k = 0; k < 3; ++k) {
+      const double width = glm::length(c[k]->point(0) - c[(k + 1) % 3]->point(1));
+      if (width > widest.width) widest = {width, k};
+    }
+    if (widest.width <= near) return c;
+    if (widest.width < smallest.width) smallest = widest;
   }
-  throw FieldError("of", "the curves do not meet in three corners",
+  throw FieldError("of",
+                   fmt::format("the curves do not meet in three corners: ends of curves {} and {} are {:.6g} apart",
+                               smallest.behind, (smallest.behind + 1) % 3, smallest.width),
                    "their ends must coincide in pairs; any direction will do");
 }
 

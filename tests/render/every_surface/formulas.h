@@ -97,6 +97,25 @@ inline std::vector<Reference> references_of_sweeps() {
        },
        {{0, geometry::kTwoPi}, {0, 1}},
        kByPolynomials},
+      // Beside the ring another, farther out and higher by 1: a frame that looks at it, and a section that reaches it.
+      {"sweep_surface",
+       "path: { type: circle, radius: 2 }, section: { type: circle, radius: 0.5 }, frame: { given: { type: circle, "
+       "radius: 3, center: [0, 0, 1] } }",
+       [](const J& u, const J& v) {
+         const J x = 0.5 * cos(u) / sqrt(Quad(2)), y = 0.5 * sin(u) / sqrt(Quad(2));
+         return on_ring(v, x - y, x + y);
+       },
+       {{0, geometry::kTwoPi}, {0, 1}},
+       kByPolynomials},
+      {"sweep_surface",
+       "path: { type: circle, radius: 2 }, section: { type: circle, radius: 0.5 }, rail: { type: circle, radius: 3, "
+       "center: [0, 0, 1] }",
+       [](const J& u, const J& v) {
+         const J x = 0.5 * cos(u), y = 0.5 * sin(u);
+         return on_ring(v, x - y, x + y);
+       },
+       {{0, geometry::kTwoPi}, {0, 1}},
+       kByPolynomials},
       {"serpentine",
        "preset: bellows, b: 0.3, e: 0.15, k: 2, " + ring,
        [](const J& u, const J& v) {
