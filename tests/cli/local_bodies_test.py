@@ -113,6 +113,16 @@ class LocalBodies(ProgramTest):
             self.assert_near(self.volume(body, groove), expected, 1e-9)
         self.refused("type: offset_body, of: h, distance: 0.15", "do not come together in a corner any more", more=groove)
 
+    def test_fillets_of_cylinders_that_meet(self):
+        """The integral over the sections across the way of the ball's center, of radius 12 about one axis, 7 about the other."""
+        for run, middle, along in ("z", "[0, 0, 20]", "x"), ("z", "[0, 0, 20]", "[0.8, 0.6, 0]"), ("x", "[20, 0, 0]", "z"):
+            pair = (f"  run: {{ type: cylinder_body, axis: {{ through: [0, 0, 0], along: {run} }}, radius: 10, height: 40 }}\n"
+                    f"  branch: {{ type: cylinder_body, axis: {{ through: {middle}, along: {along} }}, radius: 5, height: 25 }}\n")
+            tee = "of: { type: union, of: [run, branch] }"
+            sharp = self.volume("type: union, of: [run, branch]", pair)
+            rounded = self.volume(f"type: fillet_body, {tee}, fillets: {{ edges: {{ between: [run.side, branch.side] }}, radius: 2 }}", pair)
+            self.assert_near(rounded - sharp, 15.709225915274, 1e-8)
+
     def test_fillets_along_fillets(self):
         rounded = ("  base: { type: fillet_body, of: { type: extrusion_body, along: [0, 0, 2], of: { type: rectangle, size: [4, 4], "
                    "corner_radius: 0.8 } }, fillets: { edges: { of_face: end }, radius: 0.3 } }\n")

@@ -5,6 +5,12 @@
 
 namespace lekalo::geometry {
 
+namespace {
+
+constexpr double kJoint = 1e-13;  // of the domain: places that near to the end of a piece are that end
+
+}  // namespace
+
 NearCurve::NearCurve(CurvePtr curve) : curve_(std::move(curve)) {
   const std::vector<CurvePiece> pieces = curve_->pieces();
   const int parts = std::max(1, 32 / static_cast<int>(pieces.size()));
@@ -52,6 +58,9 @@ std::optional<double> NearCurve::place_of(const Vec3& p, double near) const {
       t = domain.clamp(t - slope / bend);
       if (std::abs(t - before) <= 1e-16 * (std::abs(t) + domain.width())) break;
     }
+    // Else a cut would leave a scrap of the next piece, whose derivatives are not quite those of this one.
+    for (const double joint : {around.lo, around.hi})
+      if (std::abs(t - joint) <= kJoint * domain.width()) t = joint;
     const double apart = glm::length(curve_->point(t) - p);
     if (apart > nearest) continue;
     nearest = apart;
