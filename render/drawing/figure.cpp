@@ -105,6 +105,7 @@ class ViewDrawing {
     PageWork page;
     view_.scale = scale_of_ground();
     add_annotations(view_, work, page);
+    if (!model_->drawing.title.empty()) add_title(view_, under_title(), page);
     note_left_out(std::move(work.left_out));
     const OneFaces one_faces = std::move(work.one_faces);
     const VisibleLines lines = visible_lines(world_, std::move(work), options_.progress);
@@ -137,6 +138,14 @@ class ViewDrawing {
     if (!model_->integrator || !std::any_of(all.begin(), all.end(), tells_scale_of_ground)) return std::nullopt;
     const IntegratorPtr prepared = model_->integrator->prepared(world_);
     return prepared ? prepared->scale() : std::nullopt;
+  }
+
+  // As far as the picture shows it.
+  SheetBox under_title() const {
+    const SheetBox all = box_under_title(*model_, FramedContent(model_->objects), view_.camera, view_.millimetres);
+    if (!(all.lo.x <= all.hi.x)) return all;
+    const Vec2 size(view_.width(), view_.height());
+    return {view_.at + glm::clamp(all.lo, Vec2(0), size), view_.at + glm::clamp(all.hi, Vec2(0), size)};
   }
 
   void append(std::vector<SheetItem> items) {

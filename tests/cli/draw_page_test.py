@@ -759,6 +759,37 @@ outputs: [a.svg, { file: c.svg, panel: c }]
                                                                    "layout: { rows: [[a], [b]] }\n")
         self.assertNotIn("over the page", self.drawn(views)[1])
 
+    def test_titles_stand_above_what_is_drawn(self):
+        """Not above control points or corners of boxes; in their own panels, of families too; of graphs above the picture."""
+        def tops(root, panel):
+            group, = [group for group in root.iter(SVG + "g") if group.get("data-object") == panel]
+            return self.box(group)[1], self.place_of_text(group, "One")[0][1]
+        peak = """lekalo: 1
+geometry:
+  s: { type: bezier_surface, points: [[[0,0,0],[0,1,0],[0,2,0]],[[1,0,0],[1,1,9],[1,2,0]],[[2,0,0],[2,1,0],[2,2,0]]] }
+objects: { shape: s, lines: { silhouette: thick, boundary: thick, hidden: drop } }
+panels: { a: { repeat: { i: 0..1 }, camera: { view: { azimuth: 20, elevation: 35 } }, title: One } }
+layout: { rows: [[a.0], [a.1]] }
+image: { size: [60 mm, 80 mm], margin: 2 mm }
+"""
+        root, said = self.drawn(peak)
+        self.assertNotIn("warning", said)
+        for panel, begin in (("a.0", 2), ("a.1", 38)):
+            drawn, title = tops(root, panel)
+            self.assertLess(abs(drawn - title - 3), 1.2, panel)  # 3 mm, and what letters have below the line
+            self.assertGreater(title, begin, panel)
+        graph = """lekalo: 1
+geometry: { q: { type: formula_curve, y: x^2, domain: [-2, 2] } }
+objects: { shape: q }
+panels: { a: { camera: { type: graph }, title: One }, b: { camera: { type: graph, y: [0, 1] }, title: One } }
+drawing: { axes: { y: { label: y } } }
+image: { size: [120 mm, 60 mm], margin: 3 mm }
+"""
+        root, said = self.drawn(graph)
+        self.assertNotIn("warning", said)
+        for panel in "ab":
+            self.assertGreater(tops(root, panel)[1], 3)
+
     def test_narrow_columns(self):
         self.write("scene.yaml", CIRCLE + "panels: { a: {}, b: {} }\nlayout: { rows: [[a, b]], columns: [1, 0.001] }\n")
         said = self.run_program("draw", "scene.yaml", "-o", "scene.svg", code=SCENE_ERROR)[1]

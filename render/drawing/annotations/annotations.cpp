@@ -25,7 +25,6 @@ namespace {
 constexpr double kTextOff = 0.7;   // between a brace and the text at its tip
 constexpr double kEndOn = 0.5;     // arrows shorter than this have no room for a name
 constexpr double kTitle = 1.2;     // size of titles, of labels
-constexpr double kTitleOff = 3;    // between a view and its title
 constexpr double kLastPart = 0.4;  // of a light path, of the scene's radius
 
 // What is drawn on the page from the pictures of its points has none where these are behind the eye; lines in space are
@@ -191,32 +190,6 @@ void add_brace(AnnotationWork& work) {
   work.add(std::move(label));
 }
 
-// Above all that the view shows.
-void add_title(const View& view, LineWork& lines, PageWork& page) {
-  if (view.model.drawing.title.empty()) return;
-  SheetBox box;
-  const Box3 shown = bounds(view.model);
-  if (const DetailPtr detail = detail_of(view.model.drawing))
-    box = box_of(circle_of(view, *detail));
-  else if (shown.bounded() && !shown.empty())
-    for (const Vec3& corner : corners(shown)) box.include(view.place(corner));
-  if (!(box.lo.x < box.hi.x)) return;
-  double top = box.lo.y;
-  for (const Label& label : page.labels) top = std::min(top, label.at.y - label.text.ascent);
-  for (const Vec2& place : page.reach) top = std::min(top, place.y);
-  for (const Vec3& anchor : page.anchors)
-    if (view.camera.project(anchor).visible_side) top = std::min(top, view.place(anchor).y);
-  Annotation annotation;
-  annotation.type = "title";
-  annotation.style = view.model.styles.at("label");
-  annotation.style.text_size *= kTitle;
-  AnnotationWork work(view, annotation, lines, page);
-  Label label = work.page_label(view.model.drawing.title, {0.5 * (box.lo.x + box.hi.x), top});
-  label.side = "above";
-  label.distance = kTitleOff;
-  work.add(std::move(label));
-}
-
 }  // namespace
 
 void add_annotations(const View& view, LineWork& lines, PageWork& page) {
@@ -269,7 +242,40 @@ void add_annotations(const View& view, LineWork& lines, PageWork& page) {
     }
     work.finish();
   }
-  add_title(view, lines, page);
+}
+
+SheetText title_text(const Model& model) {
+  Style style = model.styles.at("label");
+  style.text_size *= kTitle;
+  return text_in(style, model.drawing.title);
+}
+
+void add_title(const View& view, SheetBox under, PageWork& page) {
+  if (view.model.drawing.title.empty() || view.camera.is_graph()) return;
+  const auto is_empty = [&] { return !(under.lo.x <= under.hi.x); };
+  const bool shows_objects = !is_empty();
+  for (const Vec3& anchor : page.anchors)
+    if (view.camera.project(anchor).visible_side) {
+      const Vec2 place = view.place(anchor);
+      if (shows_objects)
+        under.lo.y = std::min(under.lo.y, place.y);
+      else
+        under.include(place);
+    }
+  if (is_empty()) under = {view.at, view.at + Vec2(view.width(), view.height())};
+  for (const Label& label : page.labels) under.lo.y = std::min(under.lo.y, label.at.y - label.text.ascent);
+  for (const Vec2& place : page.reach) under.lo.y = std::min(under.lo.y, place.y);
+  Label label;
+  label.text = title_text(view.model);
+  label.kind = "title";
+  if (const auto& fill = view.model.styles.at("label").fill) label.box = Brush{rgb(*fill), 1};
+  label.at = {0.5 * (under.lo.x + under.hi.x), under.lo.y};
+  // A camera that has a place of its own leaves no room: then the title is over the picture, not over another panel.
+  const double height = kTitleOff + label.text.ascent + label.text.descent;
+  if (view.room.lo.y <= view.room.hi.y) label.at.y = std::max(label.at.y, view.room.lo.y + height);
+  label.side = "above";
+  label.distance = kTitleOff;
+  page.labels.push_back(std::move(label));
 }
 
 }  // namespace lekalo::render

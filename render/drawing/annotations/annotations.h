@@ -19,4 +19,11 @@ struct PageWork {
 // work.left_out.
 void add_annotations(const View& view, LineWork& work, PageWork& page);
 
+constexpr double kTitleOff = 3;  // millimetres between a view and its title
+SheetText title_text(const Model& model);
+
+// Adds the title of the view's model above `under`, and above all that the annotations say there. A graph's is one of
+// its axes' texts.
+void add_title(const View& view, SheetBox under, PageWork& page);
+
 }  // namespace lekalo::render

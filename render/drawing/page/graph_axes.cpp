@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/drawing/annotations/annotations.h"
 #include "render/drawing/page/legend.h"
 #include "render/model/numbers.h"
 
@@ -62,6 +63,10 @@ class Axes {
 
   Insets insets() const {
     Insets room = taken();
+    if (has_title()) {
+      const SheetText title = title_text(view_.model);
+      room.top += kTitleOff + title.ascent + title.descent;
+    }
     for (double* side : {&room.left, &room.right, &room.top, &room.bottom})
       if (*side > kLine) *side += free();
     const std::string side = legend_ ? view_.model.drawing.legend->side : "";
@@ -75,6 +80,12 @@ class Axes {
     if (axes) draw_axes(*axes);
     draw_knots();
     if (legend_) draw_legend(obstacles);
+    if (has_title()) {
+      SheetText title = title_text(view_.model);
+      const double x = 0.5 * (view_.at.x + right() - title.width);
+      const double y = view_.at.y - taken().top - kTitleOff - title.descent;
+      put(std::move(title), {x, y}, "title");
+    }
     return std::move(work_);
   }
 
@@ -84,7 +95,10 @@ class Axes {
   // Without a margin the page's edge would touch the texts.
   double free() const { return std::max(0.0, kFromEdge - view_.model.paper.margin); }
 
-  // Of the room around the graph, by what stands there.
+  // Views that are no graphs have theirs above what they show.
+  bool has_title() const { return view_.camera.is_graph() && !view_.model.drawing.title.empty(); }
+
+  // Of the room around the graph, by what stands there, below its title.
   Insets taken() const {
     Insets room;
     const auto& axes = view_.model.drawing.axes;

@@ -137,8 +137,8 @@ SheetBox objects_box(const FramedContent& shown, const Camera& camera, double mi
   return part;
 }
 
-// Of all that annotations draw, but for what is held on the page: that stays where it is.
-SheetBox annotations_box(const Model& model, const Camera& camera, double millimetres) {
+// Of all that annotations draw, but for what is held on the page: that stays where it is. With the title.
+SheetBox annotations_box(const Model& model, const SheetBox& under_title, const Camera& camera, double millimetres) {
   Model trial = model;
   std::erase_if(trial.drawing.annotations, [](const Annotation& one) {
     return std::any_of(std::begin(kAnchorFields), std::end(kAnchorFields), [&](const char* field) {
@@ -149,6 +149,7 @@ SheetBox annotations_box(const Model& model, const Camera& camera, double millim
   LineWork work;
   PageWork page;
   add_annotations(view, work, page);
+  add_title(view, under_title, page);
   SheetBox all;
   for (const SheetItem& item : page.shapes) include(item, all);
   for (const Vec2& place : page.reach) all.include(place);
@@ -190,9 +191,15 @@ SheetBox shown_box(const Model& model, const FramedContent& shown, const Camera&
   return part;
 }
 
+SheetBox box_under_title(const Model& model, const FramedContent& shown, const Camera& camera, double millimetres) {
+  if (const DetailPtr detail = detail_of(model.drawing))
+    return box_of(circle_of({model, camera, Vec2(0), millimetres}, *detail));
+  return objects_box(shown, camera, millimetres);
+}
+
 SheetBox annotated_box(const Model& model, const FramedContent& shown, const Camera& camera, double millimetres) {
   SheetBox all = shown_box(model, shown, camera, millimetres);
-  include(annotations_box(model, camera, millimetres), all);
+  include(annotations_box(model, box_under_title(model, shown, camera, millimetres), camera, millimetres), all);
   return all;
 }
 
@@ -226,13 +233,16 @@ CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, dou
   constexpr int kRounds = 12;
   constexpr double kFound = 1e-3;  // of the scale
   for (int round = 0; round < kRounds; ++round) {
-    SheetBox shown = anchors_box(model, *camera, millimetres);
-    if (frames_all || !shows_objects)
+    SheetBox shown = anchors_box(model, *camera, millimetres), under_title;
+    if (frames_all || !shows_objects) {
       shown = shown_box(model, objects_shown, *camera, millimetres);
-    else
-      shown.include(now(picture.lo)), shown.include(now(picture.hi));
+      under_title = box_under_title(model, objects_shown, *camera, millimetres);
+    } else {
+      under_title = {now(picture.lo), now(picture.hi)};
+      include(under_title, shown);
+    }
     SheetBox all = shown;
-    include(annotations_box(model, *camera, millimetres), all);
+    include(annotations_box(model, under_title, *camera, millimetres), all);
     const bool fits = all.lo.x >= -kRounding && all.lo.y >= -kRounding && all.hi.x <= size.x + kRounding &&
                       all.hi.y <= size.y + kRounding;
     if (round == 0 && fits && shows_objects) break;

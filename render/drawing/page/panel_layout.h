@@ -20,6 +20,9 @@ namespace lekalo::render {
 SheetBox shown_box(const Model& model, const FramedContent& shown, const Camera& camera, double millimetres);
 SheetBox annotated_box(const Model& model, const FramedContent& shown, const Camera& camera, double millimetres);
 
+// Above what the view's title stands: the circle of a detail, else what the objects show. Empty where that is nothing.
+SheetBox box_under_title(const Model& model, const FramedContent& shown, const Camera& camera, double millimetres);
+
 // A camera that frames the scene so that its annotations have room too: `size` is that of the picture in millimetres,
 // whose height is made to fit where it is automatic. The model's own camera where they have.
 CameraPtr camera_with_room(const Model& model, Vec2& size, bool auto_height, double millimetres);

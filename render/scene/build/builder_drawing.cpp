@@ -168,7 +168,7 @@ void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
   std::set<std::string> wrong;
   visit_named("panels", Category::panel, [&](const std::string& name, const Built& built) {
     auto read = std::any_cast<PanelAsRead>(built.value);
-    const Value* entry = section("panels")->find(name);
+    const Value* entry = section("panels")->find(name.substr(0, name.find('.')));  // of members that of their family
     const Value& place = entry ? *entry : scene_.root;
     Panel panel;
     panel.name = name;
