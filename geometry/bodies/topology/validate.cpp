@@ -31,6 +31,13 @@ std::vector<double> samples(const Curve& curve, int count = kSamples) {
   return result;
 }
 
+// For a polygon: fewer of each piece where these are many.
+std::vector<double> polygon_samples(const Curve& curve, int count) {
+  constexpr int kPieces = 4, kLeast = 2;  // as many points as that many pieces have
+  const int pieces = static_cast<int>(curve.pieces().size());
+  return samples(curve, std::clamp(kPieces * count / pieces, std::min(kLeast, count), count));
+}
+
 // Of parameters in order those that are farther than a length from both ends, and where the curve is that far for the
 // first and the last time; all of them where it is nowhere much farther.
 std::vector<double> beyond_ends(const Curve& curve, const std::vector<double>& ts, double length) {
@@ -219,7 +226,7 @@ class Validation {
     std::vector<Vec2> result;
     for (int index : body_.loops[loop].coedges) {
       const Coedge& coedge = body_.coedges[index];
-      std::vector<double> ts = samples(*coedge.image, count);
+      std::vector<double> ts = polygon_samples(*coedge.image, count);
       if (first_side > 0) ts = beyond_ends(*coedge.image, ts, first_side);
       if (!coedge.forward) std::reverse(ts.begin(), ts.end());
       ts.pop_back();
