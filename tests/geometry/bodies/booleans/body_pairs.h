@@ -46,7 +46,7 @@ class BodyPairs {
   }
 
   // The kinds of coincidence by turns, half of the pairs turned.
-  static constexpr int kKinds = 33, kExtrudedTwice = 26, kRevolvedTwice = 27;
+  static constexpr int kKinds = 42, kExtrudedTwice = 26, kRevolvedTwice = 27;
   BodyPair degenerate(int number) {
     BodyPair pair = coincident(number % kKinds);
     if (unit() < 0.5) return pair;
@@ -367,6 +367,37 @@ class BodyPairs {
             transformed(extruded(segments(in_plane(beside(corners[0]), plane)), {0, 0, 1}),
                         Affine::translation({0, 0, s * h}))};
       }
+      case 32:
+        return {"ball touches a torus along a circle", torus_body(at({0, 0, 0}), r + 0.5, 0.3),
+                ball(turned_at({0, 0, 0}), unit() < 0.5 ? r + 0.2 : r + 0.8)};
+      case 33: {
+        // Where a ball about (0, 0, c) touches the cone of radius r at z = 0 and slope r / h.
+        const double slant = std::hypot(r, h), inscribed = (s * h) * r / slant;
+        return {"ball in a cone", frustum(at({0, 0, 0}), r, 0, h), ball(turned_at({0, 0, h - s * h}), inscribed)};
+      }
+      case 34:
+        return {"edge touches a ball", globe,
+                transformed(box(at({-s, 0, 0}), other),
+                            Affine::translation({0, 0, r}) * Affine::rotation(0.25 * kPi, {1, 0, 0}))};
+      case 35:
+        return {"equal tori", torus_body(at({0, 0, 0}), r + 0.5, 0.3), torus_body(turned_at({0, 0, 0}), r + 0.5, 0.3)};
+      case 36:
+        return {"equal cylinders aslant", cylinder_body(at({0, 0, -4}), r, 8),
+                transformed(cylinder_body(at({0, 0, -4}), r, 8), Affine::rotation(between(0.7, 2.3), {1, 0, 0}))};
+      case 37: {
+        const double angle = between(0, kTwoPi), c = r * std::cos(angle), d = r * std::sin(angle);
+        return {"edge on a cylinder", rod, box(at({c, d, -s}), other)};
+      }
+      case 38: {
+        const double side = r * std::sqrt(2.0);
+        return {"box in a cylinder", rod, box(at({-0.5 * side, -0.5 * side, s * h}), {side, side, h})};
+      }
+      case 39: {
+        const double side = 2 * r / std::sqrt(3.0);
+        return {"box in a ball", globe, box(at({-0.5 * side, -0.5 * side, -0.5 * side}), {side, side, side})};
+      }
+      case 40:
+        return {"Viviani's window", globe, cylinder_body(turned_at({0.5 * r, 0, -2}), 0.5 * r, 4)};
       default:
         return {"cylinder in a box", box(at({-r, -r, 0}), {2 * r, 2 * r, h}),
                 cylinder_body(turned_at({0, 0, s * h}), r, h)};
