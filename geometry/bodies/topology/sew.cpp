@@ -8,6 +8,8 @@
 #include <stdexcept>
 
 #include "geometry/bodies/primitives/construct.h"
+#include "geometry/curves/splines/bezier_curve.h"
+#include "geometry/curves/splines/bspline_basis.h"
 #include "geometry/queries/measures/mass_properties.h"
 
 namespace lekalo::geometry {
@@ -81,6 +83,32 @@ class SideCurve final : public Curve {
   Interval range_;
 };
 
+// A side of a single polynomial or rational patch, in the surface's own parameter: a Bezier curve, which is met and
+// enclosed at a fraction of the cost. Nothing where it is none.
+CurvePtr bezier_side(const Surface& surface, int moving, double fixed, const Interval& range) {
+  for (const SurfacePiece& piece : surface.pieces()) {
+    const bool along_u = moving == 0;
+    const Interval &along = along_u ? piece.domain.u : piece.domain.v,
+                   across = along_u ? piece.domain.v : piece.domain.u;
+    if (along != range || (across.lo != fixed && across.hi != fixed)) continue;
+    const ParameterMap& map = along_u ? piece.map_u : piece.map_v;
+    const int p = piece.degree_u, q = piece.degree_v;
+    if (!piece.is_rational() || map.kind != ParameterMap::Kind::affine || std::max(p, q) > kMaxDegree) return nullptr;
+    const int held = across.lo == fixed ? 0 : along_u ? q : p;
+    std::vector<Vec3> points;
+    std::vector<double> weights;
+    for (int k = 0; k <= (along_u ? p : q); ++k) {
+      const Vec4& point = piece.points[along_u ? k * (q + 1) + held : held * (q + 1) + k];
+      if (!(point.w > 0)) return nullptr;
+      points.push_back(Vec3(point) / point.w);
+      weights.push_back(point.w);
+    }
+    const bool is_polynomial = std::all_of(weights.begin(), weights.end(), [](double w) { return w == 1; });
+    return std::make_shared<NurbsCurve>(bezier_curve(points, is_polynomial ? std::vector<double>() : weights));
+  }
+  return nullptr;
+}
+
 class Sewing {
  public:
   Sewing(std::span<const SurfacePtr> surfaces, double tolerance, bool crowded) : crowded_(crowded) {
@@ -146,7 +174,8 @@ class Sewing {
       uses_[e].push_back(face);
       return {e, side.along == same, image_line({0, 1}, same ? from : to, same ? to : from)};
     }
-    const int edge = body_.add_edge(curve, start, end, {}, pole ? EdgeKind::pole : EdgeKind::regular);
+    const CurvePtr simple = pole ? nullptr : bezier_side(*surface, side.moving, side.fixed, side.range);
+    const int edge = body_.add_edge(simple ? simple : curve, start, end, {}, pole ? EdgeKind::pole : EdgeKind::regular);
     edges_between_.insert({{key.first, key.second}, edge});
     probes_.push_back(probes);
     uses_.push_back({face});

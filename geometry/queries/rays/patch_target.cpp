@@ -1,5 +1,7 @@
 #include "geometry/queries/rays/patch_target.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +27,8 @@ Vec3 in_space(const std::array<uint16_t, 3>& steps, const Vec3& reach) {
 // Cuts one piece after the other.
 class PatchTarget::Cutter {
  public:
-  Cutter(PatchTarget& target, double min_area) : target_(target), min_area_(min_area) {}
+  Cutter(const PatchTarget& target, double min_area, std::vector<Cell>& cells)
+      : target_(target), min_area_(min_area), cells_(cells) {}
 
   void cut(int patch) {
     const PatchView view = target_.view_of(target_.patches_[patch]);
@@ -98,11 +101,12 @@ class PatchTarget::Cutter {
         cell.hi[k] = static_cast<uint16_t>(std::clamp(std::ceil(hi[k]), 0.0, kSteps));
       }
     }
-    target_.cells_.push_back(cell);
+    cells_.push_back(cell);
   }
 
-  PatchTarget& target_;
+  const PatchTarget& target_;
   double min_area_;
+  std::vector<Cell>& cells_;
   std::vector<Vec4> room_;
   int patch_ = 0, budget_ = 0;
 };
@@ -110,7 +114,6 @@ class PatchTarget::Cutter {
 PatchTarget::PatchTarget(SurfacePtr surface, std::vector<SurfacePiece> pieces, std::shared_ptr<const TrimRegion> trim,
                          double min_area)
     : surface_(std::move(surface)), acceptance_(std::move(trim)) {
-  Cutter cutter(*this, min_area);
   for (const SurfacePiece& piece : pieces) {
     Patch patch;
     patch.map_u = piece.map_u;
@@ -138,10 +141,23 @@ PatchTarget::PatchTarget(SurfacePtr surface, std::vector<SurfacePiece> pieces, s
       patch.reach += 1e-14 * (patch.reach.x + patch.reach.y + patch.reach.z) + 1e-300;
     }
     patches_.push_back(patch);
-    cutter.cut(static_cast<int>(patches_.size()) - 1);
   }
-  cells_.shrink_to_fit();
+  cut_all(min_area);
   points_.shrink_to_fit();
+}
+
+void PatchTarget::cut_all(double min_area) {
+  constexpr size_t kStretch = 16;  // pieces for one thread at a time
+  std::vector<std::vector<Cell>> cut((patches_.size() + kStretch - 1) / kStretch);
+  tbb::parallel_for(size_t{0}, cut.size(), [&](size_t k) {
+    Cutter cutter(*this, min_area, cut[k]);
+    for (size_t i = k * kStretch; i < std::min((k + 1) * kStretch, patches_.size()); ++i)
+      cutter.cut(static_cast<int>(i));
+  });
+  size_t count = 0;
+  for (const std::vector<Cell>& some : cut) count += some.size();
+  cells_.reserve(count);
+  for (const std::vector<Cell>& some : cut) cells_.insert(cells_.end(), some.begin(), some.end());
 }
 
 Box3 PatchTarget::piece_bounds(int i) const {

@@ -48,6 +48,7 @@ class PatchTarget final : public LineTarget {
     uint32_t whole : 1;  // all of it lies within the trim
   };
   class Cutter;
+  void cut_all(double min_area);
 
   PatchView view_of(const Patch& patch) const {
     return {points_.data() + patch.first_point, patch.degree_u, patch.degree_v};
