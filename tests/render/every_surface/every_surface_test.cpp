@@ -17,7 +17,7 @@ namespace {
 using namespace geometry;
 using namespace every_surface;
 
-// Of solved contacts: blends_test.cpp has their equations.
+// Of solved contacts: solved_test.cpp has their equations.
 const std::set<std::string> kSolved{"fillet_surface", "chamfer_surface"};
 
 bool is_rational(const Surface& surface) {
