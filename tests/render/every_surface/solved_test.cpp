@@ -138,7 +138,7 @@ Vec3 derivative(const Point& p, int i, int j) {
 }
 
 // Contacts are polynomials that agree with the solutions to 1e-13: each derivative loses two digits or more.
-constexpr Tolerances kOfContacts{1e-12, 2e-10, 2e-8, 2e-6, 2e-4};
+constexpr Tolerances kOfContacts{1e-12, 5e-10, 1e-7, 1e-5, 1e-3};
 
 template <class Blend>
 void expect_solved(const SurfacePtr& surface, const Blend& blend) {
