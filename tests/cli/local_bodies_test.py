@@ -113,6 +113,23 @@ class LocalBodies(ProgramTest):
             self.assert_near(self.volume(body, groove), expected, 1e-9)
         self.refused("type: offset_body, of: h, distance: 0.15", "do not come together in a corner any more", more=groove)
 
+    def test_balls_in_any_place(self):
+        """Where the poles of a ball stand makes no difference to what becomes of its domes and dents."""
+        dome_of, dent_of = "of: { type: union, of: [plate, ball] }", "of: { type: difference, of: plate, minus: ball }"
+        cap = lambda r, h: math.pi * h * h * (r - h / 3)
+        # Between the dome, 64 - z^2, and the rolled ball, (sqrt(96) - sqrt(4 - w^2))^2 with w = z - 2, up to z = 1.6.
+        root = lambda w: 0.5 * w * math.sqrt(4 - w * w) + 2 * math.asin(w / 2)
+        foot = math.pi * (1.6 * 36 - (2**3 - 0.4**3) / 3 - 2 * math.sqrt(96) * (root(-0.4) - root(-2)) + 1.6**3 / 3)
+        for axis, size, center in ("x", "[10, 40, 40]", "[10, 20, 20]"), ("y", "[40, 10, 40]", "[20, 10, 20]"), ("z", "[40, 40, 10]", "[20, 20, 10]"):
+            more = f"  plate: {{ type: box, size: {size} }}\n  ball: {{ type: ball, center: {center}, radius: 8 }}\n"
+            for body, volume in ((f"shell_body, {dome_of}, thickness: 2, open: plate.{axis}_min", 16000 + cap(8, 8) - 36 * 36 * 8 - cap(6, 8)),
+                                 (f"offset_body, {dent_of}, distance: 1", 12 * 42 * 42 - cap(7, 8)),
+                                 (f"fillet_body, {dome_of}, fillets: {{ edges: {{ between: [plate.{axis}_max, ball.side] }}, radius: 2 }}",
+                                  16000 + cap(8, 8) + foot)):
+                self.assert_near(self.volume(f"type: {body}", more), volume, 1e-7)
+            pipe = f"  ball: {{ type: ball, radius: 10 }}\n  pipe: {{ type: cylinder_body, axis: {axis}, radius: 4, height: 25 }}\n"
+            self.assert_near(self.volume("type: shell_body, of: { type: union, of: [ball, pipe] }, thickness: 1, open: pipe.end", pipe), 1450.22714836991, 1e-7)
+
     def test_fillets_of_cylinders_that_meet(self):
         """The integral over the sections across the way of the ball's center, of radius 12 about one axis, 7 about the other."""
         for run, middle, along in ("z", "[0, 0, 20]", "x"), ("z", "[0, 0, 20]", "[0.8, 0.6, 0]"), ("x", "[20, 0, 0]", "z"):

@@ -12,6 +12,7 @@
 #include "geometry/bodies/booleans/gluing.h"
 #include "geometry/bodies/booleans/imprint.h"
 #include "geometry/bodies/booleans/merging.h"
+#include "geometry/bodies/booleans/turned_ball.h"
 #include "geometry/queries/closest/distance.h"
 #include "geometry/queries/closest/position.h"
 #include "geometry/queries/rays/line_intersections.h"
@@ -46,7 +47,10 @@ class Boolean {
  public:
   // An open second body stands for the half of space that its normals look away from.
   Boolean(BooleanOperation operation, const Body& a, const Body& b)
-      : operation_(operation), bodies_{&a, &b}, imprint_(imprint(a, b)) {}
+      : operation_(operation),
+        turned_{turned_ball(a, b), turned_ball(b, a)},
+        bodies_{turned_[0] ? &*turned_[0] : &a, turned_[1] ? &*turned_[1] : &b},
+        imprint_(imprint(*bodies_[0], *bodies_[1])) {}
 
   Body body() {
     std::vector<FacePiece> pieces;
@@ -217,6 +221,7 @@ class Boolean {
   }
 
   BooleanOperation operation_;
+  std::array<std::optional<Body>, 2> turned_;
   std::array<const Body*, 2> bodies_;
   Imprint imprint_;
   std::array<std::vector<Region>, 2> regions_;
