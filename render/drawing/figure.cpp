@@ -542,9 +542,13 @@ Figure figure_of(const std::shared_ptr<const Model>& given, const FigureOptions&
       if (options.progress) of_panel.progress = [&](double done) { options.progress(share(done)); };
       if (options.rendering) of_panel.rendering = [&](double done) { options.rendering(share(done)); };
       std::vector<SheetItem> before;
-      std::swap(before, figure.sheet.items);
+      std::vector<std::string> left_out;
+      std::swap(before, figure.sheet.items), std::swap(left_out, figure.left_out);
       add_view(std::move(panel.model), panel.at, panel.size, true, of_panel, solids, figure);
-      std::swap(before, figure.sheet.items);
+      std::swap(before, figure.sheet.items), std::swap(left_out, figure.left_out);
+      // Another panel may show it.
+      for (const std::string& what : left_out)
+        add_once(fmt::format("{}, in the panel '{}'", what, panel.name), figure.left_out);
       figure.sheet.items.push_back(SheetGroup{"panel", panel.name, {}, {}, std::move(before)});
     }
     crop(figure.sheet, model);

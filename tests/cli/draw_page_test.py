@@ -466,6 +466,22 @@ image: { size: [80 mm, auto], margin: 4 mm }
         self.assertIn("arrow of no size", errors)
         self.assertTrue(self.of_class(root, "curve"))
 
+    def test_annotations_seen_end_on(self):
+        """Where nothing of one is seen a note says so; its name does not stand alone."""
+        seen = ("{ type: linear_dimension, from: [0, 0, 0], to: [1, 0, 0] }, { type: arrow, from: [0, 0, 0], to: [1, 0, 0], "
+                "label: x }, { type: diameter_dimension, of: c }")
+        hidden = ("{ type: linear_dimension, from: [0, 0, 0], to: [0, 0, 3] }, { type: arrow, from: [0, 0, 0], to: [0, 0, 3], "
+                  "label: z }, { type: brace, from: [0, 0, 0], to: [0, 0, 3], label: b }")
+        root, errors = self.drawn(self.annotated(seen, hidden))
+        for what in ("linear_dimension", "arrow 'z'", "brace 'b'"):
+            self.assertIn(f"note: not in the drawing: {what} seen end on (scene.yaml:", errors)
+        self.assertEqual(errors.count("not in the drawing"), 3)
+        self.assertNotIn("z", self.texts(root))
+        panels = "panels: { a: { camera: { view: top } }, b: { camera: { view: front } } }\n"
+        errors = self.drawn(self.annotated(seen) + panels)[1]
+        self.assertRegex(errors, "diameter_dimension whose circle is seen from its edge .*, in the panel 'b'\n")
+        self.assertEqual(errors.count("not in the drawing"), 1)
+
     def test_short_dimensions(self):
         """A text that does not fit between the arrows stands upon the line's continuation, along any direction."""
         for to, turn in (("[1.2, 1, 0]", 0), ("[1, 1.2, 0]", 90), ("[1.15, 1.15, 0]", 45)):

@@ -9,6 +9,8 @@
 
 namespace lekalo::render {
 
+constexpr double kSeenEndOn = 1e-3;  // millimetres: what is shorter in the picture is a point there
+
 class AnnotationWork {
  public:
   AnnotationWork(const View& view, const Annotation& annotation, LineWork& work, PageWork& page);
@@ -22,6 +24,7 @@ class AnnotationWork {
 
   // Notes that the annotation is not in the drawing.
   void leave_out(const std::string& why);
+  void leave_out_end_on() { leave_out("seen end on"); }
   // What of it is at points behind the eye is not drawn; finish() notes it, once.
   void leave_out_behind() { behind_ = true; }
   void finish();

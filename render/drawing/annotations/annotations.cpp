@@ -103,6 +103,10 @@ void add_arrow(AnnotationWork& work) {
     return work.add(std::move(label));
   }
   if (to.point == from.point) return;
+  const View& view = work.view();
+  if (work.is_seen(from.point) && work.is_seen(to.point) &&
+      glm::length(view.place(to.point) - view.place(from.point)) < kSeenEndOn)
+    return work.leave_out_end_on();
   work.segment(from.point, to.point, work.hidden(), start, end);
   if (!words.empty()) work.text(to.point, words, work.side(), 0.8, work.hidden());
 }
@@ -179,7 +183,7 @@ void add_leader(AnnotationWork& work) {
 void add_brace(AnnotationWork& work) {
   const Fields& f = work.fields();
   const Vec2 from = work.place(f.get<Anchor>("from")), to = work.place(f.get<Anchor>("to"));
-  if (from == to) return;
+  if (glm::length(to - from) < kSeenEndOn) return work.leave_out_end_on();
   const double offset = f.number("offset"), depth = (offset < 0 ? -1 : 1) * f.number("depth");
   const Brace brace = brace_along(from, to, offset, depth);
   work.shape({drawn(brace.path, work.look())});

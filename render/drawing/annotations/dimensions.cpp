@@ -69,7 +69,7 @@ void arc_label(AnnotationWork& work, const Vec2& apex, const Place& on_arc, cons
 void arc_of_angle(AnnotationWork& work, const Vec3& apex, const Vec3& from, const Vec3& to, double radius,
                   const std::string& words, const std::string& side, const HiddenLines& ways) {
   const std::optional<Frame> frame = plane_of_angle(work.view(), apex, from - apex, to - apex);
-  if (!frame) return;
+  if (!frame) return work.leave_out_end_on();
   work.page().anchors.push_back(apex);
   const Vec3 other = to - apex;
   const double angle = std::atan2(std::abs(glm::dot(other, frame->y)), glm::dot(other, frame->x));
@@ -229,7 +229,7 @@ void add_linear_dimension(AnnotationWork& work) {
   const Vec3 beyond = f.has("along") ? a + value * along : b;
   if (!work.is_seen(a) || !work.is_seen(beyond)) return work.leave_out_behind();
   const Vec2 shown = work.view().place(beyond) - work.view().place(a);
-  if (!(glm::length(shown) > 1e-6)) return;                                // seen along itself
+  if (glm::length(shown) < kSeenEndOn) return work.leave_out_end_on();
   const Vec2 forward = glm::normalize(shown), out(forward.y, -forward.x);  // to the left, as seen
   const double offset = f.number("offset");
   a = begin_of_dimension(work, "from", offset >= 0 ? out : -out);
@@ -294,7 +294,7 @@ void add_round_dimension(AnnotationWork& work, bool diameter) {
   const auto on = [&](double at) { return view.place(frame.point(radius * Vec3(std::cos(at), std::sin(at), 0))); };
   const Vec2 near = on(t), far = on(t + kPi);
   const double span = diameter ? glm::length(near - far) : glm::length(near - center);
-  if (!(span > 0)) return;
+  if (span < kSeenEndOn) return work.leave_out("whose circle is seen from its edge");
   const Vec2 out = glm::normalize(near - (diameter ? far : center));
   const Vec2 end = near + kShelf * out;
   const double head = work.style().arrow_size;
