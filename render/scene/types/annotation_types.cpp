@@ -182,7 +182,8 @@ TypeDeclaration linear_dimension() {
 TypeDeclaration round_dimension(const char* name, const char* description) {
   TypeDeclaration type = dimension(name, description);
   type.field("of", references({Category::curve, Category::surface, Category::body}),
-             "a circle, an arc, or a surface or body of revolution; of several the one that is seen best")
+             "a circle, an arc, or a surface or body of revolution, of which the largest circle is measured: of a cone "
+             "that of its wider end, uncut if it is named by a face; of several the one that is seen best")
       .field("leader", angle(), "direction of the dimension line on the page, from the right upwards", "45");
   return finish(type, [](const Fields& f) {
     one_text(f);
