@@ -561,6 +561,48 @@ image: { size: [80 mm, auto], margin: 4 mm }
                     at = [a + (b - a) * part / 100 for a, b in zip(begin, end)]
                     self.assertFalse(x < at[0] < x + 2 and y - 2 < at[1] < y, (x, y, line))
 
+    def test_diameters_of_cones(self):
+        """That of the wider end is measured, of what a cut has left of it; from the side its line is the end's."""
+        cone = """lekalo: 1
+geometry:
+  k: { type: cone_body, radius: 6, top_radius: 2, height: 10 }
+  c: { type: difference, of: k, minus: { type: box, size: [20, 20, 10], center: [0, 0, 0] } }
+drawing: { annotations: [{ type: diameter_dimension, of: %s }] }
+camera: { view: %s }
+image: { size: [80 mm, 60 mm], margin: 4 mm }
+"""
+        for body, number in (("k", "⌀12"), ("c", "⌀8"), ("k.side", "⌀12")):
+            self.assertEqual(self.texts(self.drawn(cone % (body, "top"))[0]), [number])
+        root, _ = self.drawn(cone % ("k", "front"))
+        line = self.places(self.of_class(root, "diameter_dimension")[0])
+        self.assertGreater(max(x for x, _ in line) - min(x for x, _ in line), 30)
+
+    def test_numbers_of_round_dimensions_avoid_lines(self):
+        """Beside the circle is a line: the number stands beyond it, at the end of a longer line."""
+        far = []
+        for x in (1.72, -1.72):
+            root, _ = self.drawn(self.annotated("{ type: arrow, from: [-3, 0], to: [-2, 0] }, { type: arrow, from: [2, 1], "
+                                                "to: [3, 1] }, { type: arrow, from: [%g, -1], to: [%g, 1] }" % (x, x),
+                                                "{ type: radius_dimension, of: c, leader: 0 }"))
+            far.append(self.place_of_text(root, "R1")[0][0])
+        self.assertGreater(far[0], far[1] + 1.9)
+
+    def test_numbers_of_angles_stand_at_their_arc(self):
+        """Also where lines are beside the arc: there, or at the end of a leader."""
+        root, _ = self.drawn("""lekalo: 1
+geometry: { tri: { type: polygon, points: [[0, 0], [40, 0], [0, 30]] } }
+drawing:
+  annotations:
+    - { type: linear_dimension, from: [0, 0], to: [0, 30] }
+    - { type: angle_dimension, at: [40, 0], from: [0, 30], to: [0, 0] }
+camera: { view: top }
+image: { size: [90 mm, 60 mm], margin: 3 mm }
+""")
+        group = self.of_class(root, "angle_dimension")
+        (x, y), _ = self.place_of_text(root, "36.87°")
+        arc = [place for one in group for path in one.findall(SVG + "path") for place in self.places_of(path)]
+        self.assertLess(min(max(px - x - 9, x - px, 0) + max(py - y, y - 3 - py, 0) for px, py in arc), 6)
+
     # ---------------------------------------------------------------- numbers, graphs, notes
 
     def test_small_models_have_numbers(self):

@@ -19,13 +19,17 @@ namespace {
 constexpr double kGap = 0.8;           // between a point and the line that leads away from it
 constexpr double kBeyond = 1.5;        // by which these lines pass the dimension line
 constexpr double kTextOff = 0.7;       // between a line and the text upon it
-constexpr double kShelf = 6;           // from a circle to the number of its radius
+constexpr double kShelf = 6;           // from a circle to the number of its radius, at least
+constexpr double kBesideShelf = 0.6;   // between that line's end and the number
+constexpr double kInside = 0.4;        // of the way to the apex of an angle: a text within a small arc
+constexpr double kNearArc = 4;         // from an arc to a text that speaks of it
 constexpr double kMinForHeads = 3;     // in arrow lengths: shorter dimension lines have their arrows outside
 constexpr double kTail = 2;            // in arrow lengths: from there lines lead to arrows outside
 constexpr double kBesideText = 0.5;    // between a text upon a line and the line's ends
 constexpr double kNumberBorder = 0.2;  // around a number: it may be so near to the arrow heads of its line
 constexpr double kLean = 0.6;          // of leaders to numbers, for each of their height
 constexpr double kSameHeight = 1e-6;   // millimetres: the points of one edge seen from its side
+constexpr double kFromItsSide = 1e-6;  // of a circle's area on the page: what is less is none
 constexpr double kStraight = 1e-9;     // radians: sides of an angle that are one line
 
 // The plane of an angle, x along its first side. The sides of 180 degrees are one line, which lies in many planes: it
@@ -43,11 +47,18 @@ std::optional<Frame> plane_of_angle(const View& view, const Vec3& apex, const Ve
   return frame_from(apex, glm::normalize(z), glm::normalize(side));
 }
 
+// A leader from a point of an arc, first along `way`, then level below the text at its end.
+LabelSpot spot_on_leader(const SheetText& text, const Vec2& from, const Vec2& way, double length) {
+  const double side = way.x < -1e-9 ? -1 : 1;
+  const Vec2 knee = from + length * way, end = knee + Vec2(side * text.width, 0);
+  return {{std::min(knee.x, end.x), knee.y - kTextOff - text.descent}, "here", 0, {{from, knee}, {knee, end}}};
+}
+
 // The text of an arc about `apex` on the page: outside of its middle or, where something is in the way there, at
-// other places of it, inside of it, farther outside, or beside its ends.
+// other places of it, inside of it, beside its ends, or farther off; the number of a dimension on a leader then.
 template <class Place>
 void arc_label(AnnotationWork& work, const Vec2& apex, const Place& on_arc, const std::string& words,
-               const std::string& side) {
+               const std::string& side, bool dimension) {
   if (words.empty()) return;
   Label label = work.page_label(words, on_arc(0.5));
   label.side = side;
@@ -58,16 +69,34 @@ void arc_label(AnnotationWork& work, const Vec2& apex, const Place& on_arc, cons
     };
     constexpr double kParts[] = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8};
     for (const double part : kParts) beside(on_arc(part), on_arc(part) - apex, kTextOff);
-    for (const double part : kParts) label.spots.push_back({apex + 0.6 * (on_arc(part) - apex), "center", 0});
-    for (const double farther : {1.5, 3.0, 5.0}) beside(on_arc(0.5), on_arc(0.5) - apex, kTextOff + farther);
+    for (const double part : kParts) {
+      const Vec2 inwards = apex - on_arc(part);
+      if (kInside * glm::length(inwards) <= kNearArc)
+        label.spots.push_back({on_arc(part) + kInside * inwards, "center", 0});
+      else
+        beside(on_arc(part), inwards, kTextOff);
+    }
+    if (!dimension)
+      for (const double farther : {1.5, 3.0, 5.0}) beside(on_arc(0.5), on_arc(0.5) - apex, kTextOff + farther);
     for (const double end : {0.0, 1.0}) beside(on_arc(end), on_arc(end) - on_arc(0.5), kTextOff);
+    if (dimension) {
+      label.text.alignment = 0.5;
+      label.pen = work.look();
+      for (const double length : {4.0, 7.0, 11.0})
+        for (const double part : {0.5, 0.3, 0.7})
+          for (const double out : {1.0, -1.0}) {
+            const Vec2 way = out * (on_arc(part) - apex);
+            if (glm::length(way) > (out > 0 ? 0 : length))
+              label.spots.push_back(spot_on_leader(label.text, on_arc(part), glm::normalize(way), length));
+          }
+    }
   }
   work.add(std::move(label));
 }
 
 // The arc from one side to the other, of a radius in scene units.
 void arc_of_angle(AnnotationWork& work, const Vec3& apex, const Vec3& from, const Vec3& to, double radius,
-                  const std::string& words, const std::string& side, const HiddenLines& ways) {
+                  const std::string& words, const std::string& side, const HiddenLines& ways, bool dimension) {
   const std::optional<Frame> frame = plane_of_angle(work.view(), apex, from - apex, to - apex);
   if (!frame) return work.leave_out_end_on();
   work.page().anchors.push_back(apex);
@@ -80,7 +109,7 @@ void arc_of_angle(AnnotationWork& work, const Vec3& apex, const Vec3& from, cons
   };
   constexpr int kPlaces = 8;
   for (int k = 0; k <= kPlaces; ++k) work.page().reach.push_back(on_arc(static_cast<double>(k) / kPlaces));
-  arc_label(work, work.view().place(apex), on_arc, words, side);
+  arc_label(work, work.view().place(apex), on_arc, words, side, dimension);
 }
 
 void page_arc(AnnotationWork& work, const Vec2& apex, const Vec2& side, const Vec2& other, double radius,
@@ -93,7 +122,7 @@ void page_arc(AnnotationWork& work, const Vec2& apex, const Vec2& side, const Ve
   const PictureEllipse circle{apex, {radius, 0}, {0, -radius}};
   work.shape({drawn({circle.point(from), arcs_to(circle, from, from + angle), false}, work.look())});
   arc_label(
-      work, apex, [&](double part) { return circle.point(from + part * angle); }, words, text_side);
+      work, apex, [&](double part) { return circle.point(from + part * angle); }, words, text_side, false);
 }
 
 // From a point that is measured to the dimension line and beyond it.
@@ -171,6 +200,18 @@ void add_number(AnnotationWork& work, const std::string& words, const Vec2& from
   work.add(std::move(label));
 }
 
+// Where the number of a radius or a diameter may stand: at an end of its line beyond the circle, the nearer the better
+// liked. `ends`: where that line leaves the circle, and the way that it takes. `drawn`: so much of it is there already.
+std::vector<LabelSpot> places_along(const std::vector<std::pair<Vec2, Vec2>>& ends, double drawn) {
+  std::vector<LabelSpot> spots;
+  for (const double farther : {0.0, 2.0, 4.0, 7.0, 11.0, 16.0})
+    for (const auto& [from, out] : ends) {
+      const Vec2 end = from + (kShelf + farther) * out;
+      spots.push_back({end, out.x >= -1e-9 ? "right" : "left", kBesideShelf, {{from + drawn * out, end}}});
+    }
+  return spots;
+}
+
 // Of a face or the end of a body any point will do: the one nearest to the dimension line.
 Vec3 begin_of_dimension(const AnnotationWork& work, const char* field, const Vec2& out) {
   const Fields& f = work.fields();
@@ -195,7 +236,7 @@ void add_angle(AnnotationWork& work) {
     page_arc(work, work.place(at), work.place(from), work.place(to), radius, work.words("label"), work.side());
   else
     arc_of_angle(work, at.point, from.point, to.point, work.in_scene(radius, at.point), work.words("label"),
-                 work.side(), work.hidden());
+                 work.side(), work.hidden(), false);
 }
 
 // In the plane of the angle, beyond the nearer of the two points: so the offset is foreshortened as that plane is.
@@ -217,7 +258,7 @@ void add_angle_dimension(AnnotationWork& work) {
     if (!(glm::length(ends[k] - apex) > radius)) extension_line(work, view.place(ends[k]), view.place(foot_points[k]));
   const double degrees = std::atan2(glm::length(glm::cross(x, y)), glm::dot(x, y)) * 180 / kPi;
   arc_of_angle(work, apex, ends[0], ends[1], radius, number_text(work, degrees, "", "°"), "",
-               HiddenLines{HiddenLines::Way::show, {}});
+               HiddenLines{HiddenLines::Way::show, {}}, true);
 }
 
 void add_linear_dimension(AnnotationWork& work) {
@@ -287,6 +328,11 @@ void add_round_dimension(AnnotationWork& work, bool diameter) {
   const auto cross = [](const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; };
   // The point of the circle that is seen in this direction.
   double t = std::atan2(-cross(way, x), cross(way, y));
+  // Seen from its side it is a line, whatever the direction.
+  if (std::abs(cross(x, y)) < kFromItsSide * (glm::dot(x, x) + glm::dot(y, y))) {
+    const Vec2 along = glm::dot(x, x) > glm::dot(y, y) ? x : y;
+    t = std::atan2(glm::dot(y, along), glm::dot(x, along));
+  }
   if (glm::dot(std::cos(t) * x + std::sin(t) * y, way) < 0) t += kPi;
   // An arc that does not go there is met in its middle.
   const Interval arc = circle.domain();
@@ -296,18 +342,20 @@ void add_round_dimension(AnnotationWork& work, bool diameter) {
   const double span = diameter ? glm::length(near - far) : glm::length(near - center);
   if (span < kSeenEndOn) return work.leave_out("whose circle is seen from its edge");
   const Vec2 out = glm::normalize(near - (diameter ? far : center));
-  const Vec2 end = near + kShelf * out;
-  const double head = work.style().arrow_size;
-  if (span >= kMinForHeads * head) {
+  const double head = work.style().arrow_size, tail = kTail * head;
+  const bool fits = span >= kMinForHeads * head;
+  if (fits) {
     work.page_line(diameter ? far : center, near, diameter, true);
-    work.page_line(near, end, false, false);
   } else {
-    work.page_line(end, near, false, true);
-    if (diameter) work.page_line(far - kTail * head * out, far, false, true);
+    work.page_line(near + tail * out, near, false, true);
+    if (diameter) work.page_line(far - tail * out, far, false, true);
   }
-  Label label = work.page_label(number_text(work, diameter ? 2 * radius : radius, diameter ? "⌀" : "R", ""), end);
-  label.side = out.x >= -1e-9 ? "right" : "left";
-  label.distance = 0.6;
+  Label label =
+      work.page_label(number_text(work, diameter ? 2 * radius : radius, diameter ? "⌀" : "R", ""), near + kShelf * out);
+  label.pen = work.look();
+  std::vector<std::pair<Vec2, Vec2>> ends{{near, out}};
+  if (diameter) ends.emplace_back(far, -out);
+  label.spots = places_along(ends, fits ? 0 : tail);
   work.add(std::move(label));
 }
 

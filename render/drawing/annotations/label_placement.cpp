@@ -186,8 +186,10 @@ std::vector<Candidate> candidates(const Label& label, const LabelObstacles& obst
     for (const LabelLine& line : spot.lines) one.cost += continuing(line, obstacles);
     result.push_back(std::move(one));
   };
-  const auto add = [&](const Vec2& point, const Vec2& way, double distance, double liked) {
-    add_at({baseline(label.text, point, way, distance)}, way.x > 0 ? 0 : way.x < 0 ? 1 : 0.5, liked);
+  const auto add = [&](const Vec2& point, const Vec2& way, double distance, double liked,
+                       const std::vector<LabelLine>& lines = {}) {
+    const LabelSpot spot{baseline(label.text, point, way, distance), "here", 0, lines};
+    add_at(spot, way.x > 0 ? 0 : way.x < 0 ? 1 : 0.5, liked);
   };
   if (label.side == "here") {
     add_at({label.text.at}, label.text.alignment, 0);
@@ -200,7 +202,7 @@ std::vector<Candidate> candidates(const Label& label, const LabelObstacles& obst
       if (spot.side == "here")
         add_at(spot, label.text.alignment, liked);
       else
-        add(spot.at, direction_of_side(spot.side), spot.distance, liked);
+        add(spot.at, direction_of_side(spot.side), spot.distance, liked, spot.lines);
     }
   } else {
     const std::vector<double> steps =
