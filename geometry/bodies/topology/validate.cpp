@@ -38,8 +38,19 @@ std::vector<double> polygon_samples(const Curve& curve, int count) {
   return samples(curve, std::clamp(kPieces * count / pieces, std::min(kLeast, count), count));
 }
 
+// Whether a curve is short beside its bend: its chord stands for it.
+bool is_nearly_straight(const Curve& curve, const std::vector<double>& ts) {
+  constexpr double kBend = 0.05;
+  const Vec3 begin = curve.point(ts.front()), chord = curve.point(ts.back()) - begin;
+  const double square = glm::dot(chord, chord);
+  return std::all_of(ts.begin(), ts.end(), [&](double t) {
+    const Vec3 off = curve.point(t) - begin;
+    return glm::length(glm::cross(off, chord)) <= kBend * square && glm::dot(off, chord) >= 0;
+  });
+}
+
 // Of parameters in order those that are farther than a length from both ends, and where the curve is that far for the
-// first and the last time; all of them where it is nowhere much farther.
+// first and the last time. Where it is nowhere much farther the ends alone, or all if the curve bends between them.
 std::vector<double> beyond_ends(const Curve& curve, const std::vector<double>& ts, double length) {
   const auto is_beyond = [&](double t, double end) { return glm::length(curve.point(t) - curve.point(end)) >= length; };
   const auto border = [&](double near, double far, double end) {
@@ -53,7 +64,8 @@ std::vector<double> beyond_ends(const Curve& curve, const std::vector<double>& t
   const auto is_near_end = [&](double t) { return !is_beyond(t, ts.back()); };
   const auto first = std::find_if_not(ts.begin(), ts.end(), is_near_begin);
   const auto last = std::find_if_not(ts.rbegin(), ts.rend(), is_near_end);
-  if (first == ts.end() || last == ts.rend() || !(*first < *last)) return ts;
+  if (first == ts.end() || last == ts.rend() || !(*first < *last))
+    return is_nearly_straight(curve, ts) ? std::vector<double>{ts.front(), ts.back()} : ts;
   std::vector<double> result{ts.front(), border(*(first - 1), *first, ts.front())};
   for (auto at = first; *at <= *last; ++at)
     if (*at > result.back()) result.push_back(*at);
