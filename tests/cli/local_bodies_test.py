@@ -130,6 +130,19 @@ class LocalBodies(ProgramTest):
             pipe = f"  ball: {{ type: ball, radius: 10 }}\n  pipe: {{ type: cylinder_body, axis: {axis}, radius: 4, height: 25 }}\n"
             self.assert_near(self.volume("type: shell_body, of: { type: union, of: [ball, pipe] }, thickness: 1, open: pipe.end", pipe), 1450.22714836991, 1e-7)
 
+    def test_walls_of_cylinders_that_meet(self):
+        def tee(run, branch, height, reach):  # the strips of the branch beyond the run
+            angles = [math.pi * (k + 0.5) / 400 for k in range(400)]
+            beyond = sum((branch * math.sin(a)) ** 2 * (reach - math.sqrt(run**2 - (branch * math.cos(a)) ** 2)) for a in angles) * math.pi / 200
+            return math.pi * run**2 * height + beyond
+
+        for run, middle, along in ("z", "[0, 0, 20]", "x"), ("z", "[0, 0, 20]", "[0.8, 0.6, 0]"), ("x", "[20, 0, 0]", "z"):
+            pair = (f"  run: {{ type: cylinder_body, axis: {{ through: [0, 0, 0], along: {run} }}, radius: 10, height: 40 }}\n"
+                    f"  branch: {{ type: cylinder_body, axis: {{ through: {middle}, along: {along} }}, radius: 5, height: 25 }}\n")
+            of = "of: { type: union, of: [run, branch] }"
+            self.assert_near(self.volume(f"type: shell_body, {of}, thickness: 1, open: branch.end", pair), tee(10, 5, 40, 25) - tee(9, 4, 38, 25), 1e-8)
+            self.assert_near(self.volume(f"type: offset_body, {of}, distance: 1", pair), tee(11, 6, 42, 26), 1e-8)
+
     def test_fillets_of_cylinders_that_meet(self):
         """The integral over the sections across the way of the ball's center, of radius 12 about one axis, 7 about the other."""
         for run, middle, along in ("z", "[0, 0, 20]", "x"), ("z", "[0, 0, 20]", "[0.8, 0.6, 0]"), ("x", "[20, 0, 0]", "z"):

@@ -8,6 +8,7 @@
 #include "geometry/composition.h"
 #include "geometry/curves/analytic/circle.h"
 #include "geometry/curves/analytic/segment.h"
+#include "geometry/curves/derived/composite_curve.h"
 #include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/curves/operations/surface_curve.h"
 #include "geometry/queries/closest/closest_point.h"
@@ -175,6 +176,24 @@ std::optional<double> parameter_on(const CurvePtr& curve, const Vec3& point, dou
   return found.foot_points.front().t;
 }
 
+// The image of such a part of a contour. One that goes round a surface ends a period from where it begins, and goes on
+// from there.
+Curve2Ptr trimmed_image(const Contour& branch, const Curve2Ptr& image, double from, double to, bool backward) {
+  if (!branch.closed || image->is_closed()) return trimmed_curve(image, from, to, backward);
+  const Interval all = image->domain();
+  if (from >= all.hi) from = all.lo;
+  const double sign = backward ? -1 : 1, end = backward ? all.lo : all.hi, begin = backward ? all.hi : all.lo;
+  double length = std::fmod(sign * (to - from), all.width());
+  if (length <= 0) length += all.width();
+  const double first = std::abs(end - from), rest = length - first;
+  const auto part = [&](double a, double b) { return trimmed_curve(image, a, all.clamp(b), backward); };
+  if (first == 0) return part(begin, begin + sign * length);
+  if (rest <= 0) return part(from, from + sign * length);
+  const Affine on = Affine::translation(image->point(end) - image->point(begin));
+  return std::make_shared<CompositeCurve>(
+      std::vector<CurvePtr>{part(from, end), transformed(part(begin, begin + sign * rest), on)}, false, 1e-9);
+}
+
 // Moved by whole periods so that it begins at `begin`.
 Curve2Ptr at_periods(Curve2Ptr image, const Surface& surface, const Vec2& begin) {
   const Periods periods = surface.periods();
@@ -200,10 +219,11 @@ std::optional<EdgeCurve> searched_edge(const std::array<EdgeSide, 2>& sides, con
         edge.curve = trimmed_curve(branch.curve, *s, *t, backward);
         // A section by a plane has an image in the other surface only.
         for (int k = 0; k < 2; ++k)
-          edge.images[k] = sides[k].plane ? image_in(*sides[k].plane, edge.curve)
-                                          : trimmed_curve(branch.images[sides[1 - k].plane ? 0 : k], *s, *t, backward);
+          edge.images[k] = sides[k].plane
+                               ? image_in(*sides[k].plane, edge.curve)
+                               : trimmed_image(branch, branch.images[sides[1 - k].plane ? 0 : k], *s, *t, backward);
       } catch (const FieldError&) {
-        continue;  // an image that is not closed, of a closed curve
+        continue;  // a part without length
       }
       const double far = distance_to(guide, *edge.curve);
       if (!(far < nearest)) continue;
