@@ -89,6 +89,19 @@ class Details(ProgramTest):
         self.run_program("draw", "p.yaml")
         self.assert_near(self.clip((self.folder / "s.svg").read_text())[2], 10, 1e-3)
 
+    def test_what_is_said_of_other_places_is_left_out(self):
+        shown = "{ type: label, at: [20, 0, 8], text: corner }"
+        outside = "{ type: label, at: [0, 0, 0], text: outside, side: below }"
+        scene = (self.folder / self.scene()).read_text()
+        drawn = []
+        for annotations in (shown, f"{shown}, {outside}"):
+            self.write("l.yaml", scene.replace("title: B } }", "title: B }, drawing: { annotations: [%s] } }" % annotations))
+            errors = self.run_program("draw", "l.yaml", "-o", "l.svg")[1]
+            drawn.append((self.folder / "l.svg").read_text())
+        self.assertIn(">corner</tspan>", drawn[0])
+        self.assertIn("not in the drawing: label 'outside' outside of the detail (l.yaml:", errors)
+        self.assertEqual(*drawn)
+
     def test_errors(self):
         for detail, scale, message in (("title: B", ", scale: 1", "has no scale, but the page has one"),
                                        ("scale: 50", "", "has no room in its panel"),

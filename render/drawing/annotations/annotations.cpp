@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <span>
 
 #include "geometry/box_corners.h"
 #include "render/drawing/annotations/annotation_work.h"
@@ -194,14 +195,50 @@ void add_brace(AnnotationWork& work) {
   work.add(std::move(label));
 }
 
+// What one annotation adds, so that it can be taken back.
+class Added {
+ public:
+  Added(LineWork& lines, PageWork& page)
+      : lines_(lines), page_(page), sizes_{lines.strokes.size(), lines.marks.size(), lines.texts.size(),
+                                           page.shapes.size(),   page.labels.size(), page.reach.size(),
+                                           page.anchors.size()} {}
+
+  std::span<const Vec3> anchors() const { return std::span(page_.anchors).subspan(sizes_[6]); }
+  void take_back() {
+    const auto cut = [](auto& all, size_t size) {
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(size), all.end());
+    };
+    cut(lines_.strokes, sizes_[0]), cut(lines_.marks, sizes_[1]), cut(lines_.texts, sizes_[2]);
+    cut(page_.shapes, sizes_[3]), cut(page_.labels, sizes_[4]), cut(page_.reach, sizes_[5]);
+    cut(page_.anchors, sizes_[6]);
+  }
+
+ private:
+  LineWork& lines_;
+  PageWork& page_;
+  std::array<size_t, 7> sizes_;
+};
+
+// Whether it speaks of places, all of them outside of a detail's circle. Paths of light may lead through it.
+bool is_outside(const View& view, const std::string& type, std::span<const Vec3> anchors, const Detail& detail) {
+  constexpr double kRounding = 1e-6;  // of the radius
+  if (anchors.empty() || type == "light_path") return false;
+  const PageCircle circle = circle_of(view, detail);
+  return std::all_of(anchors.begin(), anchors.end(), [&](const Vec3& point) {
+    return glm::length(view.place(point) - circle.center) > (1 + kRounding) * circle.radius;
+  });
+}
+
 }  // namespace
 
 void add_annotations(const View& view, LineWork& lines, PageWork& page) {
   add_center_lines(view, lines, page);
-  if (detail_of(view.model.drawing)) page.anchors.clear(), page.reach.clear();  // they are cut with all lines
-  std::unique_ptr<const World> world;                                           // one for all light paths
+  const DetailPtr detail = detail_of(view.model.drawing);
+  if (detail) page.anchors.clear(), page.reach.clear();  // they are cut with all lines
+  std::unique_ptr<const World> world;                    // one for all light paths
   for (const Annotation& annotation : view.model.drawing.annotations) {
     AnnotationWork work(view, annotation, lines, page);
+    Added added(lines, page);
     const std::string& type = annotation.type;
     if (is_behind_eye(work)) {
       work.leave_out_behind();
@@ -245,6 +282,10 @@ void add_annotations(const View& view, LineWork& lines, PageWork& page) {
       add_light_path(work, *world);
     }
     work.finish();
+    if (detail && is_outside(view, type, added.anchors(), *detail)) {
+      added.take_back();
+      work.leave_out("outside of the detail");
+    }
   }
 }
 
