@@ -12,10 +12,35 @@
 #include "render/lines/stroke_collector.h"
 #include "render/model/face_materials.h"
 #include "render/model/look.h"
+#include "render/model/section.h"
 
 namespace lekalo::render {
 
 using namespace geometry;
+
+namespace {
+
+constexpr double kAlong = 1e-6;  // radians; of an edge's length
+constexpr double kEnds[] = {0, 0.5, 1};
+
+bool is_along(const Vec3& one, const Vec3& other) {
+  return glm::length(glm::cross(one, other)) <= kAlong * glm::length(one) * glm::length(other) &&
+         glm::length(other) > 0;
+}
+
+// Whether a part of one of the straight edges is the curve.
+bool lies_on_any(const Curve& curve, const std::vector<CurvePtr>& edges) {
+  const Interval t = curve.domain();
+  return std::any_of(edges.begin(), edges.end(), [&](const CurvePtr& edge) {
+    const Vec3 from = edge->point(edge->domain().lo), way = edge->point(edge->domain().hi) - from;
+    return std::all_of(std::begin(kEnds), std::end(kEnds), [&](double share) {
+      const Vec3 off = curve.point(t.lo + share * t.width()) - from;
+      return glm::length(glm::cross(off, way)) <= kAlong * glm::dot(way, way);
+    });
+  });
+}
+
+}  // namespace
 
 void StrokeCollector::add_boundary(const SurfacePtr& surface, const Style& style, const HiddenLines& hidden) {
   if (!surface->bounded()) return;
@@ -138,8 +163,10 @@ void StrokeCollector::add_solid(const ShapePtr& shape, const ViewOf& view, bool 
       const CsgLine::Kind asked = !edges             ? CsgLine::Kind::silhouette
                                   : kind_ == "sharp" ? CsgLine::Kind::sharp
                                                      : CsgLine::Kind::smooth;
+      const SectionSteps steps = edges ? steps_of(*object_) : SectionSteps();
+      const bool without_steps = !own_view.central && is_along(own_view.direction_or_eye, steps.away);
       for (const CsgLine& line : solids_.at(shape).lines)
-        if (line.kind == asked) add(line, style, hidden);
+        if (line.kind == asked && !(without_steps && lies_on_any(*line.curve, steps.edges))) add(line, style, hidden);
     } else if ((tube || balls) && kind_ != "smooth") {
       // Asked for edges and for silhouettes.
       if (outlined_ != &original || outlined_view_ != own_view.direction_or_eye) {

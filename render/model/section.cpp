@@ -22,7 +22,9 @@ namespace {
 // Hatchings of neighbours, which differ (ISO 128-3).
 constexpr double kAngles[] = {45, 135, 30, 150, 60, 120};  // degrees
 constexpr double kBeyond = 0.1;                            // of the size: by which tools go beyond what they cut
-constexpr double kSamePlace = 1e-9;                        // of a path's size
+// Faces of the tool of a stepped section: its planes, and the face over against them.
+constexpr const char *kStepped = "stepped_section", *kCut = "cut", *kAway = "away";
+constexpr double kSamePlace = 1e-9;  // of a path's size
 
 ShapePtr solid_of(const Object& object) {
   if (const auto* body = std::get_if<BodyPtr>(&object.shape))
@@ -85,7 +87,12 @@ Body prism_behind(const Section& section, const Box3& box) {
   line.emplace_back(line.back().x, top);
   line.emplace_back(line.front().x, top);
   frame.origin = (height.lo - kBeyond * reach) * frame.z;
-  return prism(frame, line, height.width() + 2 * kBeyond * reach);
+  Body body = prism(frame, line, height.width() + 2 * kBeyond * reach);
+  const int pieces = static_cast<int>(section.path.size()) - 1;
+  for (Face& face : body.faces)
+    if (face.origin.role == "side" && face.origin.index <= pieces + 1)
+      face.origin = {kStepped, face.origin.index < pieces ? kCut : face.origin.index == pieces + 1 ? kAway : "", -1};
+  return body;
 }
 
 // What is taken away, in coordinates from which the map leads to the section's.
@@ -268,6 +275,29 @@ SectionEffect cut(std::vector<Object>& objects, const Section& section) {
   Cutting cutting(section);
   objects = cutting.of(objects, Affine());
   return cutting.effect();
+}
+
+SectionSteps steps_of(const Object& object) {
+  SectionSteps steps;
+  const auto* shape = object.first_cut_leaf < 0 ? nullptr : std::get_if<ShapePtr>(&object.shape);
+  const auto* left = shape ? dynamic_cast<const Csg*>(shape->get()) : nullptr;
+  const auto* tool = left ? dynamic_cast<const BodyShape*>(left->operands().back().get()) : nullptr;
+  if (!tool) return steps;
+  const Body& body = *tool->body();
+  const auto is = [&](int face, const char* role) {
+    const Origin& origin = body.faces[static_cast<size_t>(face)].origin;
+    return origin.feature == kStepped && origin.role == role;
+  };
+  for (const Edge& edge : body.edges)
+    if (std::all_of(edge.coedges.begin(), edge.coedges.end(),
+                    [&](int k) { return is(body.loops[body.coedges[k].loop].face, kCut); }))
+      steps.edges.push_back(edge.curve);
+  for (int k = 0; k < static_cast<int>(body.faces.size()); ++k)
+    if (is(k, kAway)) {
+      const Rectangle domain = body.faces[static_cast<size_t>(k)].surface->domain();
+      steps.away = body.normal(k, domain.u.middle(), domain.v.middle());
+    }
+  return steps;
 }
 
 bool has_hatched_cuts(const std::vector<Object>& objects) {

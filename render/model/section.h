@@ -39,6 +39,15 @@ struct SectionEffect {
 // have a section of their own, or want none, as well. Of what is taken away whole nothing is left in the list.
 SectionEffect cut(std::vector<Object>& objects, const Section& section);
 
+// Of what a stepped section left: the edges in which its planes meet, in coordinates of the object's shape, and the
+// side that was taken away. Drawings that look at it from this side are without these edges (ISO 128-3). Empty of
+// others.
+struct SectionSteps {
+  std::vector<geometry::CurvePtr> edges;
+  Vec3 away{0};
+};
+SectionSteps steps_of(const Object& object);
+
 // Whether drawings hatch cut faces of some of the objects.
 bool has_hatched_cuts(const std::vector<Object>& objects);
 

@@ -14,8 +14,8 @@ PART = """
 
 
 class Sections(ProgramTest):
-    def draw(self, objects, drawing="", panels=""):
-        self.write("s.yaml", f"lekalo: 1\ngeometry: {PART}objects: {objects}\ncamera: {{ view: front }}\n{drawing}{panels}"
+    def draw(self, objects, drawing="", panels="", view="front"):
+        self.write("s.yaml", f"lekalo: 1\ngeometry: {PART}objects: {objects}\ncamera: {{ view: {view} }}\n{drawing}{panels}"
                    "image: { size: [80 mm, auto] }\n")
         self.run_program("draw", "s.yaml", "-o", "s.svg")
         return (self.folder / "s.svg").read_text()
@@ -51,6 +51,20 @@ class Sections(ProgramTest):
         both = [self.draw(f"[{{ shape: part, section: {{ path: {p}, towards: -y }} }}]") for p in (path, back)]
         self.assertIn("section_hatch", both[0])
         self.assertEqual(*both)
+
+    def test_steps_are_no_edges(self):
+        """The plane between two others is not drawn where the section is looked at, in pictures from other sides it is."""
+        def upright(view):
+            """Shares of the picture's width at which upright edges stand."""
+            svg = self.draw("[{ shape: part, section: { path: [[0, 2], [3.6, 2], [3.6, 1], [4, 1]], towards: -y } }]", view=view)
+            paths = [[tuple(map(float, place)) for place in re.findall(r"[ML] ?([-\d.]+)[ ,]([-\d.]+)", path)]
+                     for path in re.findall(r'<path id="[^"]*-sharp-\d+"[^>]* d="([^"]*)"', svg)]
+            across = [x for path in paths for x, _ in path]
+            return {round((a[0] - min(across)) / (max(across) - min(across)), 2) for path in paths
+                    for a, b in zip(path, path[1:]) if abs(a[0] - b[0]) < 1e-3 and abs(a[1] - b[1]) > 5}
+
+        self.assertEqual(upright("front"), {0, 1})  # the walls of the bore are silhouettes
+        self.assertIn(0.9, upright("{ azimuth: -90, elevation: 30 }"))
 
     def test_center_lines_of_what_is_left(self):
         def axes(section):
