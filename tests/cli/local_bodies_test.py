@@ -33,6 +33,18 @@ class LocalBodies(ProgramTest):
         for by, condition in (0.9, "the loops of a face do not cross"), (2.1, "no inner loop lies within another"):
             self.refused(f"type: moved_faces, of: {PLATE}, faces: side.4, by: {{ translate: [{by}, 0, 0] }}", condition)
 
+    def test_counters_in_names_of_faces(self):
+        """%i stands for the counter of a family, or of the map in a list, wherever faces and edges are named."""
+        holes = ("  block: { type: box, size: [6, 4, 1] }\n"
+                 "  h: { repeat: { k: 1..2 }, type: cylinder_body, center: [3*k - 1.5, 2, -1], radius: 0.5, height: 3 }\n"
+                 "  d: { type: difference, of: block, minus: h }\n")
+        filleted = "type: fillet_body, of: d, fillets: "
+        both = "{ repeat: { i: 0..1 }, edges: { between: [block.z_max, 'h.%i.side'] }, radius: 0.1*(i+1) }"
+        each = ", ".join(f"{{ edges: {{ between: [block.z_max, h.{i}.side] }}, radius: {0.1*(i+1)} }}" for i in (0, 1))
+        self.assert_near(self.volume(filleted + both, holes), self.volume(f"{filleted}[{each}]", holes), 1e-9)
+        self.volume("type: union, of: m", holes + "  m: { repeat: { i: 0..1 }, type: deleted_faces, of: d, faces: ['h.%i.side'] }\n")
+        self.refused("type: deleted_faces, of: d, faces: ['h.%q.side']", "'q'", more=holes)
+
     def test_faces_that_are_no_neighbours(self):
         turned = f"{{ type: revolution_body, of: {MERIDIAN}, axis: z }}"
         self.refused(f"type: offset_body, of: {turned}, distance: -0.6", "run into each other", "up to 0.5 works")

@@ -283,9 +283,11 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
     case Kind::texts: {
       std::vector<std::string> all;
       for (const Scoped& item : items(value, counters)) {
-        const auto one = read_quoted_text(*item.value);
+        const Value& text = with_counters(*item.value, item.counters);
+        if (text.invalid) return std::nullopt;
+        const auto one = read_quoted_text(text);
         if (!one) {
-          report(diagnostics_, *item.value, one.slip());
+          report(diagnostics_, text, one.slip());
           return std::nullopt;
         }
         all.push_back(*one);
