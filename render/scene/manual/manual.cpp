@@ -354,7 +354,8 @@ std::string description_of_repeat() {
          "  { i: [1, 2, 5] }       these numbers\n"
          "  { i: 0..2, j: 0..3 }   two counters: rows, j runs within i\n\n"
          "  A named one is a family: `hole` means all members, `hole.3` one, `hole.1.2` one of two counters,\n"
-         "  `hole.side` the side of each. In texts %i is the counter, %02i with zeros, %(2*i+1) a formula.\n"
+         "  `hole.side` the side of each. Members are numbered from 0, whatever the counters' values.\n"
+         "  In texts %i is the counter, %02i with zeros, %(2*i+1) a formula.\n"
          "  It works in lists (objects, annotations, points, outputs), named sections, and rows of nets\n"
          "  ({ repeat: { i: 0..5 }, row: [..] }).\n";
 }
