@@ -9,6 +9,7 @@
 #include "geometry/composition.h"
 #include "geometry/curves/analytic/ellipse.h"
 #include "geometry/curves/operations/nurbs_of.h"
+#include "geometry/curves/splines/nurbs_curve.h"
 #include "geometry/describe.h"
 #include "geometry/external/external_surface.h"
 #include "geometry/queries/quadrics/canonical_surface.h"
@@ -100,11 +101,12 @@ std::optional<NurbsSurfaceForm> exact_form(const Surface& surface) {
 }
 
 // The ellipse that a curve runs along: as it was given, else from its rational form.
-std::optional<CanonicalConic> ellipse_of(const Curve& curve) {
+std::optional<CanonicalConic> ellipse_of(const Curve& curve, const NurbsOfCurve& as_spline) {
   if (const auto* ellipse = dynamic_cast<const Ellipse*>(&curve))
     return CanonicalConic{CanonicalConic::Kind::ellipse, ellipse->frame(), ellipse->semi_axis_x(),
                           ellipse->semi_axis_y()};
-  const auto conic = conic_of(curve);
+  if (!as_spline.exact || as_spline.form.degree != 2) return std::nullopt;
+  const auto conic = conic_of(NurbsCurve(as_spline.form));
   return conic && conic->kind == CanonicalConic::Kind::ellipse ? conic : std::nullopt;
 }
 
@@ -168,7 +170,7 @@ std::string StepGeometry::curve(const Curve& curve) {
     return writer_.add(fmt::format(
         "LINE('',{},{})", from, writer_.shared(fmt::format("VECTOR('',{},{})", along, step_real(glm::length(way))))));
   }
-  if (const auto conic = ellipse_of(curve)) {
+  if (const auto conic = ellipse_of(curve, found)) {
     const Frame& frame = conic->frame;
     const Vec3 from_center = begin.point() - frame.origin;
     const Vec3 axis = glm::dot(glm::cross(from_center, begin.derivative(1)), frame.z) > 0 ? frame.z : -frame.z;
@@ -212,10 +214,8 @@ std::optional<StepGeometry::SurfaceEntity> StepGeometry::elementary(const Surfac
         fmt::format("SPHERICAL_SURFACE('',{},{})", writer_.placement(e.origin, e.z, x), step_real(1 / *scale)),
         there.point() - e.origin);
   if (found->kind == Kind::torus) {
-    // Rings that touch themselves, and seams elsewhere than on the outer equator, are not the format's.
-    if (!(found->major > found->minor) ||
-        (domain.v.width() > kTwoPi * (1 - 1e-12) && std::remainder(domain.v.lo, kTwoPi) != 0))
-      return std::nullopt;
+    // Rings that touch themselves are not the format's.
+    if (!(found->major > found->minor)) return std::nullopt;
     const Vec3 tube = e.origin + found->major / *scale * glm::normalize(from_axis);
     return entity(fmt::format("TOROIDAL_SURFACE('',{},{},{})", writer_.placement(e.origin, e.z, x),
                               step_real(found->major / *scale), step_real(found->minor / *scale)),

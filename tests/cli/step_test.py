@@ -28,6 +28,20 @@ geometry:
 """
 
 
+ANALYTIC = """
+lekalo: 1
+geometry:
+  sheet: { type: plane, size: [2, 3] }
+  tube: { type: cylinder_surface, radius: 1, height: 2, transform: { rotate: 20, axis: [1, 2, 3] } }
+  hat: { type: cone_surface, radius: 1, height: 2 }
+  globe: { type: sphere_surface, radius: 2 }
+  tyre: { type: torus_surface, major_radius: 3, minor_radius: 1 }
+  ring: { type: torus_body, major_radius: 3, minor_radius: 1 }
+  part: { type: torus_surface, major_radius: 3, minor_radius: 1, domain: { u: [0, 2], v: [0.5, 2] } }
+  line: { type: parameter_line, of: tube, v: 0.7 }
+"""
+
+
 class Step(ProgramTest):
     def exported(self, *arguments, unit="cm"):
         self.write("scene.yaml", SCENE.replace("unit: cm", f"unit: {unit}"))
@@ -53,6 +67,24 @@ class Step(ProgramTest):
         self.assertEqual(len(re.findall(r"=CIRCLE\(", text)), 2 + 1)
         self.assertIn("3 shapes", errors)
         self.assertNotIn("fitted", errors)
+
+    def test_analytic_surfaces_and_their_borders_are_exact(self):
+        self.write("analytic.yaml", ANALYTIC)
+        for name, surface, lines, circles in (
+            ("sheet", "PLANE", 4, 0),
+            ("tube", "CYLINDRICAL_SURFACE", 1, 2),
+            ("hat", "CONICAL_SURFACE", 1, 1),
+            ("globe", "SPHERICAL_SURFACE", 0, 1),
+            ("tyre", "TOROIDAL_SURFACE", 0, 2),
+            ("ring", "TOROIDAL_SURFACE", 0, 2),
+            ("part", "TOROIDAL_SURFACE", 0, 4),
+            ("line", "GEOMETRIC_CURVE_SET", 0, 1),
+        ):
+            _, errors = self.run_program("export", "analytic.yaml", name, "-o", "x.step")
+            text = (self.folder / "x.step").read_text()
+            self.assertEqual((text.count(f"={surface}("), text.count("=LINE("), text.count("=CIRCLE(")), (1, lines, circles), name)
+            self.assertNotIn("B_SPLINE", text, name)
+            self.assertNotIn("fitted", errors, name)
 
     def test_fits_are_told(self):
         text, errors = self.exported("wave")

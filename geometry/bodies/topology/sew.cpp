@@ -8,106 +8,12 @@
 #include <stdexcept>
 
 #include "geometry/bodies/primitives/construct.h"
-#include "geometry/curves/splines/bezier_curve.h"
-#include "geometry/curves/splines/bspline_basis.h"
+#include "geometry/curves/operations/parameter_line.h"
 #include "geometry/queries/measures/mass_properties.h"
 
 namespace lekalo::geometry {
 
 namespace {
-
-// A side of a surface's rectangle as a curve over t in [0, 1] by the surface's own derivatives.
-class SideCurve final : public Curve {
- public:
-  // `moving`: 0 the side runs along u, 1 along v, at the value `fixed` of the other parameter.
-  SideCurve(SurfacePtr surface, int moving, double fixed, const Interval& range)
-      : surface_(std::move(surface)), moving_(moving), fixed_(fixed), range_(range) {}
-
-  Interval domain() const override { return {0, 1}; }
-
-  CurveJet evaluate(double t, int order) const override {
-    if (order > kMaxSurfaceOrder) throw std::invalid_argument("a surface's side has derivatives up to order 4");
-    const double x = at(t);
-    const SurfaceJet s = surface_->evaluate(moving_ == 0 ? x : fixed_, moving_ == 0 ? fixed_ : x, order);
-    CurveJet jet;
-    jet.order = order;
-    double factor = 1;
-    for (int k = 0; k <= order; ++k, factor *= range_.width())
-      jet.d[k] = factor * (moving_ == 0 ? s.d(k, 0) : s.d(0, k));
-    return jet;
-  }
-
-  int max_order() const override { return surface_->max_order(); }
-
-  CurveEnclosure enclose(const Interval& t, int order) const override {
-    const Interval x{at(t.lo), at(t.hi)}, fixed{fixed_, fixed_};
-    const SurfaceEnclosure s = surface_->enclose(moving_ == 0 ? Rectangle{x, fixed} : Rectangle{fixed, x}, order);
-    CurveEnclosure result;
-    double factor = 1;
-    for (int k = 0; k <= order; ++k, factor *= range_.width()) {
-      const Box3& box = moving_ == 0 ? s.d(k, 0) : s.d(0, k);
-      // A few roundings more than the surface's own.
-      const Vec3 slack =
-          4 * std::numeric_limits<double>::epsilon() * factor * glm::max(glm::abs(box.lo), glm::abs(box.hi));
-      result.d[k] = {factor * box.lo - slack, factor * box.hi + slack};
-    }
-    return result;
-  }
-
-  std::vector<CurvePiece> pieces() const override {
-    std::vector<double> ends{range_.lo, range_.hi};
-    for (const SurfacePiece& piece : surface_->pieces()) {
-      const Interval part = moving_ == 0 ? piece.domain.u : piece.domain.v;
-      ends.push_back(part.lo);
-      ends.push_back(part.hi);
-    }
-    std::sort(ends.begin(), ends.end());
-    std::vector<CurvePiece> result;
-    for (size_t i = 0; i + 1 < ends.size(); ++i) {
-      if (!(ends[i] >= range_.lo && ends[i + 1] <= range_.hi && ends[i + 1] - ends[i] > 1e-12 * range_.width()))
-        continue;
-      CurvePiece piece;
-      piece.domain = {(ends[i] - range_.lo) / range_.width(), (ends[i + 1] - range_.lo) / range_.width()};
-      piece.map = {ParameterMap::Kind::affine, piece.domain.lo, piece.domain.hi};
-      result.push_back(piece);
-    }
-    return result;
-  }
-
- private:
-  double at(double t) const { return t <= 0 ? range_.lo : t >= 1 ? range_.hi : range_.lo + t * range_.width(); }
-
-  SurfacePtr surface_;
-  int moving_;
-  double fixed_;
-  Interval range_;
-};
-
-// A side of a single polynomial or rational patch, in the surface's own parameter: a Bezier curve, which is met and
-// enclosed at a fraction of the cost. Nothing where it is none.
-CurvePtr bezier_side(const Surface& surface, int moving, double fixed, const Interval& range) {
-  for (const SurfacePiece& piece : surface.pieces()) {
-    const bool along_u = moving == 0;
-    const Interval &along = along_u ? piece.domain.u : piece.domain.v,
-                   across = along_u ? piece.domain.v : piece.domain.u;
-    if (along != range || (across.lo != fixed && across.hi != fixed)) continue;
-    const ParameterMap& map = along_u ? piece.map_u : piece.map_v;
-    const int p = piece.degree_u, q = piece.degree_v;
-    if (!piece.is_rational() || map.kind != ParameterMap::Kind::affine || std::max(p, q) > kMaxDegree) return nullptr;
-    const int held = across.lo == fixed ? 0 : along_u ? q : p;
-    std::vector<Vec3> points;
-    std::vector<double> weights;
-    for (int k = 0; k <= (along_u ? p : q); ++k) {
-      const Vec4& point = piece.points[along_u ? k * (q + 1) + held : held * (q + 1) + k];
-      if (!(point.w > 0)) return nullptr;
-      points.push_back(Vec3(point) / point.w);
-      weights.push_back(point.w);
-    }
-    const bool is_polynomial = std::all_of(weights.begin(), weights.end(), [](double w) { return w == 1; });
-    return std::make_shared<NurbsCurve>(bezier_curve(points, is_polynomial ? std::vector<double>() : weights));
-  }
-  return nullptr;
-}
 
 class Sewing {
  public:
@@ -151,9 +57,11 @@ class Sewing {
   };
 
   Body::Use use(const SurfacePtr& surface, int face, const Side& side) {
-    const auto curve = std::make_shared<SideCurve>(surface, side.moving, side.fixed, side.range);
+    const auto curve = std::make_shared<ParameterLine>(surface, side.moving == 0 ? IsoDirection::v : IsoDirection::u,
+                                                       side.fixed, side.range);
     Probes probes;
-    for (size_t k = 0; k < kProbes.size(); ++k) probes[k] = curve->point(kProbes[k]);
+    for (size_t k = 0; k < kProbes.size(); ++k)
+      probes[k] = curve->point(affine_mix(1 - kProbes[k], side.range.lo, kProbes[k], side.range.hi));
     const Vec2 from = side.moving == 0 ? Vec2(side.range.lo, side.fixed) : Vec2(side.fixed, side.range.lo);
     const Vec2 to = side.moving == 0 ? Vec2(side.range.hi, side.fixed) : Vec2(side.fixed, side.range.hi);
     const bool pole = matches(probes, [&](size_t) { return probes[0]; });
@@ -172,14 +80,13 @@ class Sewing {
         edge.tolerance = std::max(edge.tolerance, glm::length(probes[k] - other[same ? k : kProbes.size() - 1 - k]));
       if (uses_[e][0] == face) edge.kind = EdgeKind::seam;
       uses_[e].push_back(face);
-      return {e, side.along == same, image_line({0, 1}, same ? from : to, same ? to : from)};
+      return {e, side.along == same, image_line(edge.curve->domain(), same ? from : to, same ? to : from)};
     }
-    const CurvePtr simple = pole ? nullptr : bezier_side(*surface, side.moving, side.fixed, side.range);
-    const int edge = body_.add_edge(simple ? simple : curve, start, end, {}, pole ? EdgeKind::pole : EdgeKind::regular);
+    const int edge = body_.add_edge(curve, start, end, {}, pole ? EdgeKind::pole : EdgeKind::regular);
     edges_between_.insert({{key.first, key.second}, edge});
     probes_.push_back(probes);
     uses_.push_back({face});
-    return {edge, side.along, image_line({0, 1}, from, to)};
+    return {edge, side.along, image_line(side.range, from, to)};
   }
 
   template <class Other>

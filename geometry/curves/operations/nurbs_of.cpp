@@ -8,6 +8,7 @@
 
 #include "geometry/curves/analytic/formula_curve.h"
 #include "geometry/curves/operations/curve_parts.h"
+#include "geometry/curves/operations/parameter_line.h"
 #include "geometry/curves/operations/smooth_pieces.h"
 #include "geometry/curves/splines/nurbs_operations.h"
 
@@ -140,6 +141,8 @@ NurbsOfCurve nurbs_of(const Curve& curve, const Interval& part, double tolerance
   if (!(part.width() > 0 && part.width() < kInfinity))
     throw std::invalid_argument("the curve is not bounded: give a domain");
   if (const auto form = curve.as_nurbs()) return exact_part(*form, 1, part);
+  if (const auto* line = dynamic_cast<const ParameterLine*>(&curve))
+    if (const auto form = line->form()) return exact_part(*form, 1, part);
   const auto* formula = dynamic_cast<const FormulaCurve*>(&curve);
   if (formula && formula->rational()) return exact_part(formula->rational()->form, formula->rational()->speed, part);
   Fit fit(curve, tolerance);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/curves/splines/bspline_basis.h"
 #include "geometry/describe.h"
 
 namespace lekalo::geometry {
@@ -61,6 +62,32 @@ std::vector<CurvePiece> ParameterLine::pieces() const {
     pieces.push_back(piece);
   }
   return pieces;
+}
+
+// The surface's points across the line, summed where it lies.
+std::optional<NurbsCurveForm> ParameterLine::form() const {
+  const auto of = surface_->as_nurbs();
+  if (!of) return std::nullopt;
+  const int degree = holds_u() ? of->degree_u : of->degree_v;
+  const std::vector<double>& knots = holds_u() ? of->knots_u : of->knots_v;
+  double at = at_;
+  for (const ParameterMap& map : holds_u() ? of->maps_u : of->maps_v)
+    if (at_ > map.lo && at_ < map.hi) at = map.rational(at_);
+  const int span = find_span(degree, knots, at);
+  const SpanBasis basis = span_basis(degree, knots, span, at, 0);
+  NurbsCurveForm line{holds_u() ? of->degree_v : of->degree_u,
+                      holds_u() ? of->knots_v : of->knots_u,
+                      {},
+                      holds_u() ? of->maps_v : of->maps_u};
+  for (int i = 0; i < (holds_u() ? of->count_v() : of->count_u()); ++i) {
+    Vec4 sum(0);
+    for (int m = 0; m <= degree; ++m) {
+      const int across = span - degree + m;
+      sum += basis.values[0][m] * of->points[holds_u() ? across * of->count_v() + i : i * of->count_v() + across];
+    }
+    line.points.push_back(sum);
+  }
+  return line;
 }
 
 TypeDeclaration parameter_line_type() {

@@ -23,6 +23,9 @@ class ParameterLine final : public Curve {
   int enclosure_order() const override { return surface_->enclosure_order(); }
   std::vector<CurvePiece> pieces() const override;
 
+  // Its exact form, where the surface has one.
+  std::optional<NurbsCurveForm> form() const;
+
  private:
   bool holds_u() const { return held_ == IsoDirection::u; }
 
