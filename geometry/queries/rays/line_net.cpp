@@ -163,6 +163,7 @@ class NetSearch {
   }
 
   void run() {
+    if (runs_in_plane()) return;
     Cell cells[kDeepest + 1];
     cells[0] = {0, 0, 1, 1, 0, true};
     // What waits has its coefficients behind those of what waits longer.
@@ -204,6 +205,19 @@ class NetSearch {
     thread_local std::vector<Pair> room;
     if (room.size() < size) room.resize(size);
     return room.data();
+  }
+
+  // The patch lies in a plane in which the line runs: all pairs of coefficients are multiples of one another. No hit is
+  // isolated, and no cell would ever be decided.
+  bool runs_in_plane() const {
+    if (near_) return false;
+    Pair way = pair(0);
+    for (int k = 0; k < n(); ++k)
+      if (largest_of(magnitude(room_[k])) > largest_of(magnitude(way))) way = room_[k];
+    const double e = excludes_ * (std::abs(way[0]) + std::abs(way[1]));
+    for (int k = 0; k < n(); ++k)
+      if (!(std::abs(way[0] * room_[k][1] - way[1] * room_[k][0]) <= e)) return false;
+    return true;
   }
 
   // All coefficients of one function on one side of zero.

@@ -394,6 +394,14 @@ TEST(LineIntersections, AFlatBandThatShrinksToAPoint) {
   }
 }
 
+// A disc, also through the pole in its middle: no place of it is a hit of its own.
+TEST(LineIntersections, NoneInThePlaneOfAFlatPatch) {
+  const auto radius = std::make_shared<NurbsCurve>(bezier_curve(std::array{Vec3(0), Vec3(1, 0, 0)}));
+  const LineIntersector disc(std::make_shared<RevolutionSurface>(radius, Axis{Vec3(0), Vec3(0, 0, 1)}));
+  for (const double x : {0.0, 0.3, -0.7}) EXPECT_TRUE(disc.all_hits({{x, -10, 0}, {0, 1, 0}}).empty()) << x;
+  EXPECT_EQ(disc.all_hits({{0.3, -10, 1e-3}, {0, 1, -1e-4}}).size(), 1u);
+}
+
 // The sectors at a pole are never flat: cells must not be spent there.
 TEST(LineIntersections, CellsAtAPoleAreFew) {
   const FormulaSurface cap(point_formulas({"u*cos(v)", "u*sin(v)", "0.3*cos(2*u)"}, {"u", "v"}, Coordinates::cartesian),
