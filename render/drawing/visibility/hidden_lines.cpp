@@ -119,31 +119,16 @@ class Drawing {
   }
 
   // Contours that solve their equations at every point are asked too often for that. Silhouettes of fitted copies are
-  // no better than the copies. A short one need be no nearer to its contour than a long one.
-  void simplify(Stroke& stroke) const {
+  // no better than the copies.
+  static void simplify(Stroke& stroke) {
     const bool is_of_copy =
         stroke.kind == "silhouette" && std::any_of(stroke.supporting_surfaces.begin(), stroke.supporting_surfaces.end(),
                                                    [](const auto& one) { return one.surface->is_composed(); });
-    const double fine = is_of_copy ? kNearContour : kExactContour,
-                 coarse = fine * std::max(1.0, world_.radius() / size_of(stroke));
-    const CurvePtr curve = stroke.curve;
-    for (Stroke::SupportingSurface& on : stroke.supporting_surfaces) {
-      const Curve2Ptr image = on.image;
-      on.image = contour_approximation(curve, *on.surface, image, fine, fine);
-      if (on.image == image) on.image = contour_approximation(curve, *on.surface, image, 10 * fine, 10 * fine);
-    }
-    stroke.curve = contour_approximation(curve, fine, fine);
-    if (stroke.curve == curve) stroke.curve = contour_approximation(curve, coarse, coarse);
-  }
-
-  // In the world.
-  static double size_of(const Stroke& stroke) {
-    constexpr int kPlaces = 4;
-    const Interval domain = stroke.curve->domain();
-    Box3 box;
-    for (int k = 0; k <= kPlaces; ++k)
-      box.include(stroke.to_world.point(stroke.curve->point(domain.lo + domain.width() * k / kPlaces)));
-    return std::max(box.diameter(), 1e-300);
+    const double tolerance = is_of_copy ? kNearContour : kExactContour;
+    for (Stroke::SupportingSurface& supporting_surface : stroke.supporting_surfaces)
+      supporting_surface.image = contour_approximation(stroke.curve, *supporting_surface.surface,
+                                                       supporting_surface.image, tolerance, tolerance);
+    stroke.curve = contour_approximation(stroke.curve, tolerance, tolerance);
   }
 
   // The border at which two surfaces join is one of each: one is enough to hide what lies behind it. And what is drawn
