@@ -142,6 +142,29 @@ class LocalBodies(ProgramTest):
             pipe = f"  ball: {{ type: ball, radius: 10 }}\n  pipe: {{ type: cylinder_body, axis: {axis}, radius: 4, height: 25 }}\n"
             self.assert_near(self.volume("type: shell_body, of: { type: union, of: [ball, pipe] }, thickness: 1, open: pipe.end", pipe), 1450.22714836991, 1e-7)
 
+    def test_balls_on_edges(self):
+        def corner(radius, d):  # of a ball: beyond d from its center along both of two axes, by heights
+            total = 0
+            for k in range(400):
+                angle = math.pi * ((k + 0.5) / 400 - 0.5)
+                r = radius * math.cos(angle)
+                if r * r <= 2 * d * d:
+                    continue
+                under = lambda x: 0.5 * (x * math.sqrt(r * r - x * x) + r * r * math.asin(x / r))
+                side = math.sqrt(r * r - d * d)
+                total += (under(side) - under(d) - d * (side - d)) * r * math.pi / 400
+            return total
+
+        ball = lambda radius: 4 / 3 * math.pi * radius**3
+        for center in ("[40, 40, 20]", "[20, 40, 40]", "[40, 20, 40]"):
+            more = f"  block: {{ type: box, size: [40, 40, 40] }}\n  ball: {{ type: ball, center: {center}, radius: 8 }}\n"
+            of = "of: { type: union, of: [block, ball] }"
+            self.assert_near(self.volume(f"type: shell_body, {of}, thickness: 1", more), 40**3 + ball(8) * 3 / 4 - 38**3 - ball(7) + corner(7, 1), 1e-4)
+        # The poles would stand on the seam of the cylinder.
+        more = "  pipe: { type: cylinder_body, radius: 10, height: 40 }\n  ball: { type: ball, center: [10, 0, 20], radius: 5 }\n"
+        one, two = (self.volume(f"type: {kind}, of: {of}", more) for kind, of in (("union", "[pipe, ball]"), ("intersection", "[pipe, ball]")))
+        self.assert_near(one + two, math.pi * 4000 + ball(5), 1e-7)
+
     def test_walls_of_cylinders_that_meet(self):
         def tee(run, branch, height, reach):  # the strips of the branch beyond the run
             angles = [math.pi * (k + 0.5) / 400 for k in range(400)]

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/bodies/primitives/primitives.h"
+#include "geometry/queries/contours/surface_intersection.h"
 #include "geometry/surfaces/analytic/cone.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/surfaces/analytic/sphere.h"
@@ -35,6 +36,11 @@ std::optional<Axis> axis_through(const Frame& frame, const SphereSurface& sphere
   return Axis{frame.z, frame.x};
 }
 
+bool is_elementary(const Surface& surface) {
+  return dynamic_cast<const Plane*>(&surface) || dynamic_cast<const ConeSurface*>(&surface) ||
+         dynamic_cast<const TorusSurface*>(&surface) || dynamic_cast<const SphereSurface*>(&surface);
+}
+
 std::optional<Axis> axis_of(const Surface& surface, const SphereSurface& sphere) {
   if (const auto* plane = dynamic_cast<const Plane*>(&surface)) return Axis{plane->frame().z, Vec3(0)};
   if (const auto* cone = dynamic_cast<const ConeSurface*>(&surface)) return axis_through(cone->frame(), sphere);
@@ -56,22 +62,98 @@ bool may_meet(const Body& body, int face, const SphereSurface& sphere) {
   return glm::length(nearest - center) < sphere.radius();
 }
 
+// A body has faces on one axis through the center, or on several, or such as are not known of.
+enum class Axes { none, one, several, unknown };
+
+struct Cuts {
+  Axes axes = Axes::none;
+  Axis axis{};
+  std::vector<int> faces;
+};
+
+Cuts cuts_by(const Body& other, const SphereSurface& sphere) {
+  Cuts cuts;
+  for (size_t f = 0; f < other.faces.size(); ++f) {
+    if (!may_meet(other, static_cast<int>(f), sphere)) continue;
+    const Surface& surface = *other.faces[f].surface;
+    cuts.faces.push_back(static_cast<int>(f));
+    if (!is_elementary(surface)) return {Axes::unknown, {}, {}};
+    const auto found = axis_of(surface, sphere);
+    if (!found || (cuts.axes == Axes::one && glm::length(glm::cross(cuts.axis.z, found->z)) > kSame))
+      cuts.axes = Axes::several;
+    if (cuts.axes == Axes::several) continue;
+    if (cuts.axes == Axes::none || cuts.axis.x == Vec3(0)) cuts.axis = *found;
+    cuts.axes = Axes::one;
+  }
+  return cuts;
+}
+
+// Directions from the center to points of the curves in which faces cut the sphere.
+std::vector<Vec3> cut_directions(const Body& other, const std::vector<int>& faces, const SurfacePtr& whole,
+                                 const SphereSurface& sphere) {
+  constexpr int kPlaces = 48;
+  std::vector<Vec3> result;
+  for (const int f : faces)
+    for (const Contour& contour : intersect(whole, other.faces[f].surface).branches) {
+      const Interval t = contour.curve->domain();
+      for (int k = 0; k <= kPlaces; ++k)
+        result.push_back((contour.curve->point(t.lo + t.width() * k / kPlaces) - sphere.frame().origin) /
+                         sphere.radius());
+    }
+  return result;
+}
+
+// The cosine between the nearest of these and a place of the seam, x over z to -z.
+double nearness(const Frame& frame, const std::vector<Vec3>& directions, double enough) {
+  double nearest = -1;
+  for (const Vec3& d : directions) {
+    const Vec3 p = frame.to_local_direction(d);
+    nearest = std::max(nearest, p.x > 0 ? std::sqrt(p.x * p.x + p.z * p.z) : std::abs(p.z));
+    if (nearest >= enough) break;
+  }
+  return nearest;
+}
+
+// The frame whose seam and poles stay farthest from the curves, of some hundred; the own one where that is clear.
+std::optional<Frame> clear_frame(const Frame& own, const std::vector<Vec3>& directions) {
+  constexpr double kClear = 0.999, kClearEnough = 0.99;  // cosines
+  constexpr int kPoles = 80, kMeridians = 16;
+  if (directions.empty() || nearness(own, directions, kClear) < kClear) return std::nullopt;
+  Frame best;
+  double least = kClearEnough;
+  for (int i = 0; i < kPoles; ++i) {
+    // Over half of a sphere, by the golden angle.
+    const double height = (i + 0.5) / kPoles, turn = i * kPi * (3 - std::sqrt(5.0)), r = std::sqrt(1 - height * height);
+    const Frame about = frame_about(own.origin, {r * std::cos(turn), r * std::sin(turn), height});
+    for (int k = 0; k < kMeridians; ++k) {
+      const double angle = kTwoPi * k / kMeridians;
+      const Frame frame = frame_from(own.origin, about.z, std::cos(angle) * about.x + std::sin(angle) * about.y);
+      const double near = nearness(frame, directions, least);
+      if (near < least) least = near, best = frame;
+    }
+  }
+  return least < kClearEnough ? std::optional(best) : std::nullopt;
+}
+
+std::optional<Frame> better_frame(const Body& body, const Body& other, const SphereSurface& sphere) {
+  const Cuts cuts = cuts_by(other, sphere);
+  const Frame& own = sphere.frame();
+  if (cuts.axes == Axes::one) {
+    const Axis& axis = cuts.axis;
+    if (glm::length(glm::cross(axis.z, own.z)) <= kSame) return std::nullopt;
+    return axis.x == Vec3(0) ? frame_about(own.origin, axis.z) : frame_from(own.origin, axis.z, axis.x);
+  }
+  if (cuts.axes != Axes::several) return std::nullopt;
+  return clear_frame(own, cut_directions(other, cuts.faces, body.faces[0].surface, sphere));
+}
+
 }  // namespace
 
 std::optional<Body> turned_ball(const Body& body, const Body& other) {
   const SphereSurface* sphere = whole_ball(body);
-  if (!sphere) return std::nullopt;
-  std::optional<Axis> axis;
-  for (size_t f = 0; f < other.faces.size(); ++f) {
-    if (!may_meet(other, static_cast<int>(f), *sphere)) continue;
-    const auto found = axis_of(*other.faces[f].surface, *sphere);
-    if (!found || (axis && glm::length(glm::cross(axis->z, found->z)) > kSame)) return std::nullopt;
-    if (!axis || axis->x == Vec3(0)) axis = found;
-  }
-  if (!axis || glm::length(glm::cross(axis->z, sphere->frame().z)) <= kSame) return std::nullopt;
-  const Vec3 center = sphere->frame().origin;
-  Body turned =
-      ball(axis->x == Vec3(0) ? frame_about(center, axis->z) : frame_from(center, axis->z, axis->x), sphere->radius());
+  const auto frame = sphere ? better_frame(body, other, *sphere) : std::nullopt;
+  if (!frame) return std::nullopt;
+  Body turned = ball(*frame, sphere->radius());
   for (size_t k = 0; k < turned.vertices.size(); ++k) turned.vertices[k].origin = body.vertices[k].origin;
   for (size_t k = 0; k < turned.edges.size(); ++k) turned.edges[k].origin = body.edges[k].origin;
   turned.faces[0].origin = body.faces[0].origin;

@@ -7,9 +7,9 @@
 
 namespace lekalo::geometry {
 
-// The same ball with its poles on the common axis of the circles in which `other` cuts it: circles that are its
-// parallels, so that none runs through a pole or over the seam more than once, and images are straight lines. Nothing
-// where the body is no whole ball, where it stands so already, or where there is no such axis.
+// The same ball with its poles on the common axis of the circles in which `other` cuts it, which are then parallels;
+// else with poles and seam away from the curves that elementary faces cut, so that no edge runs over them. Nothing
+// where the body is no whole ball, where it stands so already, or where there is no such place.
 std::optional<Body> turned_ball(const Body& body, const Body& other);
 
 }  // namespace lekalo::geometry
