@@ -239,7 +239,8 @@ TypeDeclaration object_type() {
                 "what `drawing` says")
       .optional("show", helpers(), "helpers beside it: those that the shape's type offers")
       .optional("fill", group(fill_fields()), "of the areas in which it is seen, in drawings with `ground: fill`")
-      .optional("legend", label({"i"}), "text in the legend of a drawing; %i is the number of a family's member, from 0")
+      .optional("legend", label({"i"}),
+                "text in the legend of a drawing; %i is the number of a family's member, from 0")
       .built_by(objects_of);
 }
 
