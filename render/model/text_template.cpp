@@ -6,20 +6,37 @@
 #include <cctype>
 #include <cmath>
 
+#include "render/model/numbers.h"
 #include "render/model/tex.h"
 
 namespace lekalo::render {
 
 namespace {
 
-constexpr int kWidest = 20;  // %20k
+constexpr int kWidest = 20;  // %20k, %.20k
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 bool begins_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-std::string number_text(double value) {
+std::string number_text(double value, int decimals, bool in_formula) {
+  if (decimals >= 0) return fmt::format("{:.{}f}", value, decimals);
   if (value == std::nearbyint(value) && std::abs(value) < 1e15) return fmt::format("{:.0f}", value + 0.0);
-  return fmt::format("{:.6g}", value);
+  const std::string text = fmt::format("{:.6g}", value);
+  const std::size_t power = text.find('e');
+  if (power == std::string::npos) return text;
+  const std::string tex = times_power_of_ten(text.substr(0, power), std::stoi(text.substr(power + 1)));
+  return in_formula ? tex : fmt::format("${}$", tex);
+}
+
+// Whether a text that goes on behind this one is in a formula.
+bool ends_in_formula(std::string_view text) {
+  bool inside = false;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '\\')
+      ++i;
+    else if (text[i] == '$')
+      inside = !inside;
+  return inside;
 }
 
 // The end of the formula whose parenthesis opens at `open`, or npos.
@@ -43,7 +60,8 @@ std::string TextTemplate::text(std::span<const double> values) const {
       result += part.text;
       continue;
     }
-    const std::string number = number_text(part.value->evaluate<double>(arguments));
+    const std::string number =
+        number_text(part.value->evaluate<double>(arguments), part.decimals, ends_in_formula(result));
     const auto missing = part.width - static_cast<int>(number.size());
     const bool negative = part.zeros && number.front() == '-';
     // A script is one thing in TeX: t_12 is t_{1}2.
@@ -81,6 +99,13 @@ std::optional<TextSlip> split_template(std::string_view text, std::span<const st
     while (i < text.size() && is_digit(text[i]) && part.width < 1000) part.width = 10 * part.width + (text[i++] - '0');
     if (part.width > kWidest)
       return TextSlip{percent, fmt::format("a number of more than {} digits", kWidest), "the width stands behind %"};
+    if (i < text.size() && text[i] == '.') {
+      part.decimals = 0;
+      for (++i; i < text.size() && is_digit(text[i]) && part.decimals < 1000; ++i)
+        part.decimals = 10 * part.decimals + (text[i] - '0');
+    }
+    if (part.decimals > kWidest)
+      return TextSlip{percent, fmt::format("a number of more than {} decimals", kWidest), "they stand behind %."};
     part.offset = i;
     if (i < text.size() && text[i] == '(') {
       const std::size_t end = closing(text, i);
@@ -104,7 +129,7 @@ std::optional<TextSlip> split_template(std::string_view text, std::span<const st
       i += length;
     } else {
       return TextSlip{percent, "a percent sign stands for a number here",
-                      "%i is a counter, %(n + 1) a formula, %% a percent sign"};
+                      "%i is a counter, %(n + 1) a formula, %.2(n) with two decimals, %% a percent sign"};
     }
     flush();
     parts.push_back(std::move(part));

@@ -3,6 +3,7 @@
 //   '$\mathbf{p}_%i$'            %i      a counter of the place: of the point, of a `repeat` around it
 //   '$w_{22} = %(w)$'            %(...)  a formula of parameters and counters
 //   'fillet_%02k'                %02k    at least two digits, filled with zeros; %3k: with blanks
+//   '%.2(w)'                     %.2     with two decimals
 //   '$12\,\%%$'                  %%      a percent sign
 #pragma once
 
@@ -22,12 +23,13 @@ struct TextTemplate {
     std::optional<geometry::Expression> value;  // a formula of `counters`
     int width = 0;                              // least number of characters
     bool zeros = false;                         // fill up with zeros instead of blanks
+    int decimals = -1;                          // so many; negative: as the number has them
   };
   std::vector<Part> parts;
   std::vector<std::string> counters;  // free in the values, in the order that text() takes them
 
   // The text for these values of the counters (missing ones are 0). Whole numbers without a point, others with six
-  // digits.
+  // digits; very large and small ones with a power of ten, in $ signs where the text is no formula.
   std::string text(std::span<const double> values = {}) const;
 };
 
@@ -39,6 +41,7 @@ struct TemplatePart {
   std::size_t offset = 0;  // of the formula in the template, bytes
   int width = 0;
   bool zeros = false;
+  int decimals = -1;
 };
 
 // What is wrong in a text: where, in bytes, and what to write instead.

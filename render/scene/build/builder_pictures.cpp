@@ -182,6 +182,7 @@ std::optional<TextTemplate> Builder::read_label(const FieldType& type, const Val
     made.value = *std::move(expression);
     made.width = part.width;
     made.zeros = part.zeros;
+    made.decimals = part.decimals;
   }
   if (const auto slip = check_tex(*text)) return fail(*slip);
   return result;
