@@ -285,7 +285,7 @@ void StrokeCollector::add_figure(const Body& body, const std::vector<double>& le
 void StrokeCollector::add_colored(const CurvePtr& curve, const Helper& helper) {
   const Fields& f = helper.values;
   const std::string &by = f.text("by"), &colors = f.text("colors");
-  const Interval range = f.has("range") ? f.range("range") : curve_range(*curve, by), domain = curve->domain();
+  const Interval range = f.has("range") ? f.range("range") : curve_range(*curve, by, colors), domain = curve->domain();
   const int count = f.integer("count");
   const auto at = [&](double k) { return domain.clamp(domain.lo + domain.width() * k / count); };
   for (int k = 0; k < count; ++k) {

@@ -105,7 +105,7 @@ double curve_quantity(const Curve& curve, const std::string& quantity, double t)
   return std::isfinite(value) ? value : 0;
 }
 
-Interval curve_range(const Curve& curve, const std::string& quantity) {
+Interval curve_range(const Curve& curve, const std::string& quantity, const std::string& colors) {
   const Interval domain = curve.domain();
   double least = kInfinity, largest = -kInfinity;
   for (int k = 0; k <= kPlaces; ++k) {
@@ -113,6 +113,7 @@ Interval curve_range(const Curve& curve, const std::string& quantity) {
     least = std::min(least, value), largest = std::max(largest, value);
   }
   const double size = std::max(std::abs(least), std::abs(largest)), middle = 0.5 * (least + largest);
+  if (colors == "blue_red" && least < 0 && largest > 0) return {-size, size};
   if (largest - least > 1e-9 * size) return {least, largest};
   const double half = size > 0 ? 0.1 * size : 1;
   return {middle - half, middle + half};

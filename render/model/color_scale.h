@@ -39,7 +39,8 @@ struct SurfaceBend {
 };
 SurfaceBend surface_bend(const geometry::Curve& curve, double t);
 
-// Least and largest of it, as seen at places of the curve; of a constant quantity a range about it.
-geometry::Interval curve_range(const geometry::Curve& curve, const std::string& quantity);
+// Least and largest of it, as seen at places of the curve; of a constant quantity a range about it. In colours that
+// have a middle numbers of both signs have it at zero.
+geometry::Interval curve_range(const geometry::Curve& curve, const std::string& quantity, const std::string& colors);
 
 }  // namespace lekalo::render

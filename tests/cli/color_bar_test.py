@@ -30,6 +30,14 @@ class ColorBar(ProgramTest):
         self.run_program("draw", "scene.yaml", "-o", "bar.svg", "--quiet")
         self.assertIn(">−10<", self.bytes_of("bar.svg").decode())
 
+    def test_signs(self):
+        """In blue_red zero is white: the bar of curvatures from -0.75 to 0.94 ends as far from it on both sides."""
+        self.write("scene.yaml", SCENE.format("of: w, by: signed_curvature, colors: blue_red, ticks: [-0.9, 0, 0.9]")
+                   .replace("geometry: { ", "geometry: { w: { type: formula_curve, y: sin(x) + 0.1*x^2, domain: [0, 6] }, "))
+        self.run_program("draw", "scene.yaml", "-o", "bar.svg", "--quiet")
+        text = self.bytes_of("bar.svg").decode()
+        self.assertTrue(">−0.9<" in text and ">0.9<" in text)
+
     def test_errors(self):
         for fields, message in [("by: curvature", "either the 'range' of its numbers or a curve 'of'"),
                                 ("of: c, range: [0, 1]", "either the 'range' of its numbers or a curve 'of'"),

@@ -22,8 +22,11 @@ PictureScale scale_of(const AnnotationWork& work) {
   const Fields& f = work.fields();
   if (!f.has("range") && !f.has("of"))
     return work.view().scale.value_or(PictureScale{{0, 1}, "viridis", {}, false, {}});
-  return {
-      f.has("range") ? f.range("range") : curve_range(*f.curve("of"), f.text("by")), f.text("colors"), {}, false, {}};
+  return {f.has("range") ? f.range("range") : curve_range(*f.curve("of"), f.text("by"), f.text("colors")),
+          f.text("colors"),
+          {},
+          false,
+          {}};
 }
 
 // Even steps; of bands a pair about each level.

@@ -252,7 +252,8 @@ TypeDeclaration color_bar() {
       .optional("of", reference({Category::curve}), "the curve whose least and largest numbers are its ends")
       .field("by", choice(curve_quantities()), "what is told of the curve", "curvature")
       .optional("range", range(), "the numbers at its ends; without these or a curve it is that of the integrator")
-      .field("colors", choice(color_scales()), "scale of colours", "viridis")
+      .field("colors", choice(color_scales()),
+             "scale of colours; of a curve's numbers of both signs blue_red has zero white", "viridis")
       .field("width", page_length().positive(), "on the page", "3 mm")
       .field("height", page_length().positive(), "on the page; a bar that is wider than high lies", "30 mm")
       .field("ticks", counts(), "about how many round numbers, or which", "5")
@@ -269,7 +270,8 @@ TypeDeclaration color_bar() {
               "without all of these it is that of the integrator 'analysis'");
       return;
     }
-    const Interval ends = f.has("range") ? f.range("range") : curve_range(*f.curve("of"), f.text("by"));
+    const Interval ends =
+        f.has("range") ? f.range("range") : curve_range(*f.curve("of"), f.text("by"), f.text("colors"));
     for (const double tick : f.get<ParameterValues>("ticks").values)
       if (!ends.contains(tick))
         throw FieldError("ticks", "the number " + std::to_string(tick) + " is beyond the ends of the bar");

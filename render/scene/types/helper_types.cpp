@@ -221,8 +221,10 @@ TypeDeclaration colored_helper() {
              "normal_curvature: "
              "of a curve on a surface",
              "curvature")
-      .optional("range", range(), "the numbers of the first and last colour; least and largest by default")
-      .field("colors", choice(color_scales()), "scale of colours", "viridis")
+      .optional("range", range(),
+                "the numbers of the first and last colour; least and largest by default, of both "
+                "signs in blue_red as far from zero")
+      .field("colors", choice(color_scales()), "scale of colours; blue_red for numbers with signs", "viridis")
       .field("count", integer().between(2, 2000), "parts of one colour each", "120");
   return finish(type);
 }
