@@ -1,5 +1,7 @@
 #include "render/model/page.h"
 
+#include <fmt/format.h>
+
 namespace lekalo::render {
 
 using namespace geometry;
@@ -10,14 +12,29 @@ std::vector<Field> axis_fields() {
   return {
       {"label", label(), "what is measured along it", false, {}},
       {"ticks", numbers().or_word({"auto", "none"}), "where there are marks: a list, or a range 0..6", false, "auto"},
+      {"texts",
+       labels(),
+       "TeX at the marks of a list instead of their numbers, one for each: ['$0$', '$\\pi$']",
+       false,
+       {}},
       {"grid", boolean(), "lines across the graph at the marks", false, "false"}};
 }
 
-GraphAxis axis_of(const Fields& fields) {
+GraphAxis axis_of(const Fields& fields, const std::string& name) {
   GraphAxis axis;
   if (fields.has("label")) axis.label = fields.get<TextTemplate>("label");
   axis.ticks = fields.word("ticks");
   if (axis.ticks.empty()) axis.tick_values = fields.numbers("ticks");
+  if (fields.has("texts")) {
+    axis.texts = fields.get<std::vector<TextTemplate>>("texts");
+    if (!axis.ticks.empty())
+      throw FieldError(name + ".texts", "texts stand at marks that are given: these are '" + axis.ticks + "'",
+                       "ticks: [0, pi/2, pi] beside the texts");
+    if (axis.texts.size() != axis.tick_values.size())
+      throw FieldError(name + ".texts",
+                       fmt::format("{} texts for {} marks", axis.texts.size(), axis.tick_values.size()),
+                       "one for each of `ticks`; '' leaves one without");
+  }
   axis.grid = fields.boolean("grid");
   return axis;
 }
@@ -64,8 +81,8 @@ DrawingChoices drawing_of(const Fields& fields) {
   if (fields.has("axes")) {
     const Fields& given = fields.group("axes");
     GraphAxes& axes = drawing.axes.emplace();
-    if (given.has("x")) axes.x = axis_of(given.group("x"));
-    if (given.has("y")) axes.y = axis_of(given.group("y"));
+    if (given.has("x")) axes.x = axis_of(given.group("x"), "axes.x");
+    if (given.has("y")) axes.y = axis_of(given.group("y"), "axes.y");
     axes.style = style_of(given, "style");
     axes.grid_style = style_of(given, "grid_style");
   }

@@ -24,7 +24,8 @@ struct GraphAxis {
   TextTemplate label;
   std::string ticks = "auto";  // auto, none, or empty: `tick_values`
   std::vector<double> tick_values;
-  bool grid = false;  // lines across the graph at the ticks
+  std::vector<TextTemplate> texts;  // of these ticks; empty: their numbers
+  bool grid = false;                // lines across the graph at the ticks
 };
 
 struct GraphAxes {

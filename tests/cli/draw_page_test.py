@@ -801,6 +801,22 @@ image: {{ size: [80 mm, 50 mm], margin: 3 mm }}
             self.assertEqual(self.ticks("{ y: {} }", f"y: {y}, domain: [-2, 2]")[0], numbers)
         self.assertEqual(self.ticks("{ x: { ticks: [0, 1/3, pi] } }")[0], ["0", "0.333333", "3.14159"])
 
+    def test_texts_of_ticks(self):
+        """Instead of numbers; where they cover one another it is said."""
+        texts, errors = self.ticks("{ x: { ticks: [0, pi/2, pi], texts: ['$0$', '$\\pi/2$', '$\\pi$'] } }")
+        self.assertEqual((texts, "warning" in errors), (["0", "π/2", "π"], False))
+        errors = self.ticks("{ x: { ticks: 0..6 }, y: { ticks: [-0.8, -0.4, 0, 0.01, 0.02] } }")[1]
+        self.assertIn("warning: the texts at the ticks of the y axis cover one another: of 5 have room 3", errors)
+        self.assertNotIn("x axis", errors)
+        self.write("wrong.yaml", "lekalo: 1\ngeometry: { f: { type: formula_curve, y: x, domain: [0, 1] } }\n"
+                   "camera: { type: graph }\ndrawing: { axes: { x: { ticks: [0, 1], texts: [a] } } }\n")
+        self.assertIn("1 texts for 2 marks", self.run_program("check", "wrong.yaml", code=SCENE_ERROR)[1])
+
+    def test_numbers_in_texts(self):
+        """Decimals, and powers of ten, in a formula or not."""
+        root, _ = self.drawn(self.annotated("{ type: label, at: [0, 0], text: '%.2(1/3), %.1(2), $%(1e-9)$, %(2.5e20)' }"))
+        self.assertEqual(self.texts(root), ["0.33, 2.0, 10−9, 2.5·1020"])
+
     def test_panels_without_a_place(self):
         """A panel that the layout does not name is said to be left out, unless it has a file of its own."""
         scene = """lekalo: 1

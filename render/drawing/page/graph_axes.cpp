@@ -104,7 +104,7 @@ class Axes {
     const auto& axes = view_.model.drawing.axes;
     if (axes && axes->x) {
       room.bottom = kTick;
-      if (!x_ticks_.empty()) room.bottom += kFromTick + height_of(x_ticks_);
+      if (!x_ticks_.empty()) room.bottom += below_marks();
       // Half of the last number stands beyond the axis.
       for (const double at : {ranges_.x.lo, ranges_.x.hi})
         for (const auto& [value, text] : x_ticks_)
@@ -142,14 +142,39 @@ class Axes {
   std::vector<Tick> ticks(const GraphAxis& axis, const Interval& range, double length, const char* name) {
     if (axis.ticks == "auto") return automatic_ticks(range, length, *name == 'x');
     std::vector<double> inside;
+    std::vector<Tick> named;
     const double slack = kAtEnd * range.width();
-    for (const double value : axis.ticks.empty() ? axis.tick_values : std::vector<double>())
-      if (value >= range.lo - slack && value <= range.hi + slack)
+    const std::vector<double> values = axis.ticks.empty() ? axis.tick_values : std::vector<double>();
+    for (size_t k = 0; k < values.size(); ++k)
+      if (const double value = values[k]; value >= range.lo - slack && value <= range.hi + slack) {
         inside.push_back(value);
-      else
+        if (!axis.texts.empty()) named.emplace_back(value, text_in(style_, axis.texts[k].text()));
+      } else {
         work_.left_out.push_back(fmt::format("the tick {:.9g} of the {} axis, which shows {:.9g} to {:.9g}", value,
                                              name, range.lo, range.hi));
-    return with_numbers(inside);
+      }
+    std::vector<Tick> result = axis.texts.empty() ? with_numbers(inside) : std::move(named);
+    if (const size_t room = with_room(result, range, length, *name == 'x'); room < result.size())
+      work_.covered.push_back(fmt::format(
+          "the texts at the ticks of the {} axis cover one another: of {} have room {}; fewer `ticks`, or a "
+          "larger page",
+          name, result.size(), room));
+    return result;
+  }
+
+  // How many of the texts stand clear of the one before.
+  static size_t with_room(std::vector<Tick> ticks, const Interval& range, double length, bool across) {
+    const auto by_value = [](const Tick& a, const Tick& b) { return a.first < b.first; };
+    std::sort(ticks.begin(), ticks.end(), by_value);
+    size_t count = 0;
+    double end = -kInfinity;
+    for (const auto& [value, text] : ticks) {
+      const double at = (value - range.lo) / range.width() * length, half = 0.5 * (across ? text.width : text.ascent);
+      if (text.width > 0 && at - half < end) continue;
+      if (text.width > 0) end = at + half;
+      ++count;
+    }
+    return count;
   }
 
   std::vector<Tick> with_numbers(const std::vector<double>& values) const {
@@ -183,6 +208,13 @@ class Axes {
     double width = 0;
     for (const auto& [value, text] : ticks) width = std::max(width, text.width);
     return width;
+  }
+  // Of the texts at the marks of the x axis; numbers reach no lower than their baseline, fractions do.
+  double below_marks() const {
+    double depth = 0;
+    if (!view_.model.drawing.axes->x->texts.empty())
+      for (const auto& [value, text] : x_ticks_) depth = std::max(depth, text.descent);
+    return kFromTick + height_of(x_ticks_) + depth;
   }
   static std::string name(const std::optional<GraphAxis>& axis) { return axis ? axis->label.text() : std::string(); }
   SheetText name_text(const std::optional<GraphAxis>& axis) const { return text_in(style_, name(axis)); }
@@ -223,7 +255,7 @@ class Axes {
       if (!name(axes.x).empty()) {
         const SheetText text = name_text(axes.x);
         double y = bottom() + kTick + kFromNumbers + text.ascent;
-        if (!x_ticks_.empty()) y += kFromTick + height_of(x_ticks_);
+        if (!x_ticks_.empty()) y += below_marks();
         if (has_knot_texts()) y += kFromNumbers + knot_text_height();
         put(text, {0.5 * (view_.at.x + right()) - 0.5 * text.width, y}, "axis");
       }
@@ -310,7 +342,7 @@ class Axes {
       if (one.text.empty()) continue;
       const SheetText text = text_in(knot_style_, one.text);
       double y = bottom() + kTick + kFromNumbers + text.ascent;
-      if (!x_ticks_.empty()) y += kFromTick + height_of(x_ticks_);
+      if (!x_ticks_.empty()) y += below_marks();
       if (knot_texts_inside_) y = bottom() - kFromNumbers - text.descent;
       put(text, {x - 0.5 * text.width, y}, "knots");
     }
