@@ -155,7 +155,8 @@ SampledShape sampled_shape(const Surface& surface, const Rectangle& domain) {
 
 bool is_closed_along(const Surface& surface, Along along) {
   const Rectangle domain = surface.domain();
-  const double near = 1e-9 * bounds(surface).diameter();
+  const double bound = bounds(surface).diameter();
+  const double near = 1e-9 * (bound < kInfinity ? bound : sampled_shape(surface, domain).size);
   const Interval &run = along == Along::u ? domain.u : domain.v, &other = along == Along::u ? domain.v : domain.u;
   const auto at = [&](double t, double x) {
     return along == Along::u ? surface.evaluate(t, x, 1) : surface.evaluate(x, t, 1);

@@ -67,7 +67,13 @@ bool Curve::is_closed() const {
   const Interval range = domain();
   if (!(range.lo > -kInfinity && range.hi < kInfinity)) return false;
   if (period() > 0) return range.width() >= period() * (1 - kDomainSlack);
-  const double size = bounds(*this).diameter();
+  double size = bounds(*this).diameter();
+  if (!(size < kInfinity)) {  // its boxes tell nothing: some of its points do
+    constexpr int kTried = 64;
+    Box3 box;
+    for (int i = 0; i <= kTried; ++i) box.include(point(range.lo + range.width() * i / kTried));
+    size = box.diameter();
+  }
   return size > 0 && glm::length(point(range.hi) - point(range.lo)) <= kClosedCurve * size;
 }
 

@@ -14,6 +14,7 @@
 #include "geometry/curves/derived/composite_curve.h"
 #include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/curves/operations/curve_part.h"
+#include "geometry/no_longer.h"
 #include "geometry/transformed.h"
 
 namespace lekalo::geometry {
@@ -28,7 +29,7 @@ struct PlaneOffset {
   template <class T>
   Triple<T> operator()(const T& t) const {
     const Triple<T> along = curve_at(*of, t, 1);
-    return curve_at(*of, t) + (distance / length(along)) * cross(triple(normal), along);
+    return curve_at(*of, t) + no_longer((distance / length(along)) * cross(triple(normal), along), T(distance));
   }
 };
 

@@ -14,6 +14,7 @@
 #include "geometry/curves/derived/corners.h"
 #include "geometry/curves/derived/reparametrized_curve.h"
 #include "geometry/describe.h"
+#include "geometry/no_longer.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
@@ -65,7 +66,7 @@ struct Conchoid {
   template <class T>
   Triple<T> operator()(const T& t) const {
     const Triple<T> off = curve_at(*of, t) - triple(pole);
-    return curve_at(*of, t) + (distance / length(off)) * off;
+    return curve_at(*of, t) + no_longer((distance / length(off)) * off, T(distance));
   }
 };
 

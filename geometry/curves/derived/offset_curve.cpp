@@ -17,6 +17,7 @@
 #include "geometry/curves/operations/moving_frame.h"
 #include "geometry/describe.h"
 #include "geometry/expression/scalar_law.h"
+#include "geometry/no_longer.h"
 #include "geometry/queries/closest/closest_point.h"
 #include "geometry/queries/intersections/self_intersections.h"
 #include "geometry/tolerances.h"
@@ -33,7 +34,8 @@ struct InPlane {
   template <class T>
   Triple<T> operator()(const T& t) const {
     const Triple<T> along = curve_at(*of, t, 1);
-    return curve_at(*of, t) + (distance(t) / length(along)) * cross(triple(normal), along);
+    const T reach = distance(t);
+    return curve_at(*of, t) + no_longer((reach / length(along)) * cross(triple(normal), along), reach);
   }
 };
 

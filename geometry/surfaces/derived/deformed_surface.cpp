@@ -14,6 +14,7 @@
 #include "geometry/curves/splines/bspline_basis.h"
 #include "geometry/curves/splines/greville.h"
 #include "geometry/describe.h"
+#include "geometry/no_longer.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/surfaces/derived/deformed.h"
 #include "geometry/surfaces/derived/normals.h"
@@ -30,7 +31,8 @@ struct AlongNormals {
   template <class T>
   Triple<T> operator()(const T& u, const T& v) const {
     const Triple<T> n = cross(surface_at(*of, u, v, 1, 0), surface_at(*of, u, v, 0, 1));
-    return surface_at(*of, u, v) + (sign * surface_at(*field, u, v).x / length(n)) * n;
+    const T height = sign * surface_at(*field, u, v).x;
+    return surface_at(*of, u, v) + no_longer((height / length(n)) * n, height);
   }
 };
 

@@ -14,6 +14,7 @@
 #include "geometry/composition.h"
 #include "geometry/describe.h"
 #include "geometry/expression/expression.h"
+#include "geometry/no_longer.h"
 #include "geometry/surfaces/analytic/cone.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/surfaces/analytic/sphere.h"
@@ -60,7 +61,8 @@ struct Offset {
   template <class T>
   Triple<T> operator()(const T& u, const T& v) const {
     const Triple<T> n = cross(surface_at(*of, u, v, 1, 0), surface_at(*of, u, v, 0, 1));
-    return surface_at(*of, u, v) + (distance.at(u, v) / length(n)) * n;
+    const T reach = distance.at(u, v);
+    return surface_at(*of, u, v) + no_longer((reach / length(n)) * n, reach);
   }
 };
 
