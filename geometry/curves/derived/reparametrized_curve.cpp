@@ -67,14 +67,41 @@ CurvePtr affinely(const CurvePtr& of, const Interval& domain, double begin, doub
   return std::make_shared<ComposedCurve<Affinely>>(Affinely{of, domain, begin, slope}, properties);
 }
 
+// Where one parameter passes the ends and breaks of a curve, and where the other does, increasing both. Rounding must
+// not lead over one: behind it, or behind the end of a closed curve, another piece has other derivatives.
+struct Stations {
+  std::vector<double> w, t;
+
+  // The same value of t, in the piece of that of w.
+  double within(double value, double at) const {
+    if (!(w.front() <= at && at <= w.back())) return value;
+    const size_t end = std::upper_bound(w.begin() + 1, w.end() - 1, at) - w.begin();
+    const bool is_last = end + 1 == w.size();
+    return std::clamp(value, t[end - 1], std::max(t[end - 1], is_last ? t[end] : next_down(t[end])));
+  }
+  Interval within(const Interval& values, const Interval& range) const {
+    if (!(w.front() <= range.lo && range.hi <= w.back())) return values;
+    const double lo = *(t.begin() + (std::upper_bound(w.begin() + 1, w.end() - 1, range.lo) - w.begin() - 1));
+    const double hi = *(t.begin() + (std::lower_bound(w.begin() + 1, w.end() - 1, range.hi) - w.begin()));
+    const Interval pieces(lo, std::max(lo, hi));
+    return {pieces.clamp(values.lo), pieces.clamp(values.hi)};
+  }
+  template <class S, int N>
+  Jet<S, N> within(Jet<S, N> value, const Jet<S, N>& at) const {
+    value.c[0] = within(value.c[0], at.c[0]);
+    return value;
+  }
+};
+
 // t = law(w), a curve or formulas whose first coordinate is meant.
 template <class Law>
 struct ByLaw {
   CurvePtr of;
   Law law;
+  Stations stations;
   template <class T>
   Triple<T> operator()(const T& w) const {
-    return curve_at(*of, law(w));
+    return curve_at(*of, stations.within(law(w), w));
   }
 };
 
@@ -86,10 +113,11 @@ struct CurveLaw {
   }
 };
 
-// Where the law passes the operand's breaks: it increases.
-std::vector<double> breaks_under(const std::function<double(double)>& law, const Interval& domain,
-                                 const std::vector<double>& breaks) {
-  std::vector<double> result{domain.lo};
+// Where the law passes the operand's ends and breaks: it increases.
+Stations stations_of(const std::function<double(double)>& law, const Interval& domain,
+                     const std::vector<double>& breaks) {
+  const Interval all(breaks.front(), breaks.back());
+  Stations result{{domain.lo}, {all.clamp(law(domain.lo))}};
   for (const double t : breaks) {
     double lo = domain.lo, hi = domain.hi;
     if (!(law(lo) < t && t < law(hi))) continue;
@@ -98,9 +126,9 @@ std::vector<double> breaks_under(const std::function<double(double)>& law, const
       if (!(lo < middle && middle < hi)) break;
       (law(middle) < t ? lo : hi) = middle;
     }
-    result.push_back(hi);
+    result.w.push_back(hi), result.t.push_back(t);
   }
-  result.push_back(domain.hi);
+  result.w.push_back(domain.hi), result.t.push_back(all.clamp(law(domain.hi)));
   return result;
 }
 
@@ -126,10 +154,11 @@ CurvePtr by_formula(const CurvePtr& of, const ScalarLaw& law, const Interval& do
     before = t;
   }
   CurveProperties properties = properties_of(*of);
-  properties.breaks = breaks_under(at, domain, properties.breaks);
+  Stations stations = stations_of(at, domain, properties.breaks);
+  properties.breaks = stations.w;
   properties.domain = domain;
   properties.period = 0;
-  return std::make_shared<ComposedCurve<ByLaw<ScalarLaw>>>(ByLaw<ScalarLaw>{of, law}, properties);
+  return std::make_shared<ComposedCurve<ByLaw<ScalarLaw>>>(ByLaw<ScalarLaw>{of, law, std::move(stations)}, properties);
 }
 
 }  // namespace
@@ -198,8 +227,10 @@ CurvePtr along_length(const CurvePtr& of, double end) {
   if (end == 0) end = fraction.length();
   std::vector<Interval> stretches;
   CurveProperties properties = properties_of(*of);
+  Stations stations{{}, properties.breaks};
   for (double& t : properties.breaks) t = fraction.at(t) * end;
   properties.breaks.front() = 0, properties.breaks.back() = end;
+  stations.w = properties.breaks;
   for (size_t i = 0; i + 1 < properties.breaks.size(); ++i)
     stretches.push_back({properties.breaks[i], properties.breaks[i + 1]});
   const auto t_at = [&](double s) { return Vec3(parameter_at(*of, fraction, s / end), 0, 0); };
@@ -209,7 +240,7 @@ CurvePtr along_length(const CurvePtr& of, double end) {
   // An arc of a circle has the period of the circle, and does not close.
   properties.period = properties.period > 0 && of->is_closed() ? end : 0;
   add_operand(properties, *law);
-  return std::make_shared<ComposedCurve<ByLaw<CurveLaw>>>(ByLaw<CurveLaw>{of, {law}}, properties);
+  return std::make_shared<ComposedCurve<ByLaw<CurveLaw>>>(ByLaw<CurveLaw>{of, {law}, std::move(stations)}, properties);
 }
 
 }  // namespace
