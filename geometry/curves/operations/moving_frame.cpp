@@ -131,8 +131,8 @@ class Builder {
   Tangent tangent(double t) const {
     const CurveJet at = curve_.evaluate(t, 2);
     const double speed = glm::length(at.d[1]);
-    if (!(speed > 0)) refuse("the curve rests", t, "a ribbon needs a tangent everywhere");
-    if (!(speed < kInfinity)) refuse("the derivative has no bounds", t, "a ribbon follows smooth curves only");
+    if (!(speed > 0)) refuse("the curve rests", t, "what goes along it needs a tangent everywhere");
+    if (!(speed < kInfinity)) refuse("the derivative has no bounds", t, "what goes along it needs a smooth curve");
     const Vec3 unit = at.d[1] / speed;
     return {unit, (at.d[2] - glm::dot(at.d[2], unit) * unit) / speed, speed};
   }
@@ -183,7 +183,7 @@ class Builder {
     for (const CurvePiece& piece : curve_.pieces()) {
       const Vec3 begin = tangent(piece.domain.lo).unit;
       if (before != Vec3(0) && glm::length(begin - before) > kSameDirection)
-        refuse("the curve has a corner", piece.domain.lo, "a ribbon follows smooth curves only");
+        refuse("the curve has a corner", piece.domain.lo, "what goes along it needs a smooth curve");
       before = tangent(next_down(piece.domain.hi)).unit;
       visit(piece.domain);
     }
@@ -277,7 +277,7 @@ class Builder {
       return;
     }
     if (t.width() <= kNarrowest * domain_.width())
-      refuse("the curve turns too fast for a ribbon", t.middle(), "a ribbon follows smooth curves only");
+      refuse("the curve turns too fast to be followed", t.middle(), "what goes along it needs a smooth curve");
     carry({t.lo, t.middle()});
     carry({t.middle(), t.hi});
   }

@@ -28,7 +28,7 @@ TEST(LinesOfScenes, WrongRibbonsAndArrowsAreExplained) {
   EXPECT_EQ(said_about("{ type: ribbon, of: c, width: 1, on: { type: sphere_surface, radius: 3 } }"),
             "4:43 the curve does not lie on the surface at t = 1.56745\nto lie flat it must lie on it\n");
   EXPECT_EQ(said_about("{ type: ribbon, of: { type: polyline, points: [[0, 0], [1, 0], [1, 1]] }, width: 1 }"),
-            "4:26 the curve has a corner at t = 1\na ribbon follows smooth curves only\n");
+            "4:26 the curve has a corner at t = 1\nwhat goes along it needs a smooth curve\n");
   EXPECT_EQ(said_about("{ type: arrow_body, to: [0, 0, 1] }"), "");
   EXPECT_EQ(said_about("{ type: arrow_body, along: z, length: 2, radius: 0.1 }"), "");
   EXPECT_EQ(said_about("{ type: arrow_body }"),
