@@ -1,5 +1,6 @@
 """evaluate, measure and trace against closed forms: circle, torus, ball, box, and a table of points of a circle."""
 
+import json
 import math
 import re
 import unittest
@@ -205,6 +206,14 @@ geometry:
         self.assert_near([found["distance"], *found["arcs"][0]], [math.sqrt(5), 0, 2 * math.pi], 1e-14)
         text = self.run_program("measure", "scene.yaml", "rim", "--to", "apex")[0]
         self.assertIn("minimum", text)
+
+    def test_umbilics_of_an_ellipsoid(self):
+        """Semi-axes a < b < c: x^2 = a^2 (b^2 - a^2)/(c^2 - a^2), both curvatures a c/b^3."""
+        self.write("egg.yaml", "lekalo: 1\ngeometry: { egg: { type: ellipsoid, semi_axes: [1, 2, 3] } }\n")
+        found = json.loads(self.run_program("measure", "egg.yaml", "egg", "--features", "--json")[0])["features"]
+        self.assertEqual(len(found), 4)
+        for one in found:
+            self.assert_near([abs(one["point"][0]), abs(one["curvature"])], [math.sqrt(3 / 8), 3 / 8], 1e-14)
 
     def test_distance_between_things(self):
         """A ball of radius 1.5 at height 3 above a box of height 3; a chord above a torus; a disc's rim inside a sphere."""

@@ -51,10 +51,20 @@ class UmbilicSearch {
 
   // From a place, within the piece.
   std::optional<Vec2> zero_near(Vec2 place, const Rectangle& piece) const {
+    double least = kInfinity;
+    Vec2 best = place;
     for (int step = 0; step < kSteps; ++step) {
       const auto here = at(place);
       if (!here) return std::nullopt;
-      if (is_zero(*here, 0.01 * kEqual)) break;
+      if (is_zero(*here, 0.01 * kEqual)) {
+        // As near as rounding allows: until no step comes nearer.
+        const double apart = glm::length(here->w);
+        if (!(apart < least)) {
+          place = best;
+          break;
+        }
+        least = apart, best = place;
+      }
       const Vec2 h(kDifference * piece.u.width(), kDifference * piece.v.width());
       const auto u1 = at(place + Vec2(h.x, 0)), u0 = at(place - Vec2(h.x, 0)), v1 = at(place + Vec2(0, h.y)),
                  v0 = at(place - Vec2(0, h.y));
