@@ -215,6 +215,15 @@ geometry:
         for one in found:
             self.assert_near([abs(one["point"][0]), abs(one["curvature"])], [math.sqrt(3 / 8), 3 / 8], 1e-14)
 
+    def test_hausdorff_of_a_curve_and_its_offset(self):
+        """As far apart everywhere: each part of either might hold the farthest point."""
+        self.write("pair.yaml", "lekalo: 1\ngeometry:\n"
+                   "  base: { type: nurbs_curve, degree: 4, points: [[0,0],[1,2],[3,2.5],[4,-1],[6,0.5],[7,2]], weights: [1,2,0.5,1,3,1] }\n"
+                   "  side: { type: offset_curve, of: base, distance: 0.3 }\n")
+        found = json.loads(self.run_program("measure", "pair.yaml", "base", "--hausdorff", "side", "--json")[0])
+        low, high = found["lower"], found["upper"]
+        self.assertTrue(0.3 * (1 - 1e-12) <= low <= high <= 0.3 * (1 + 1e-6), found)
+
     def test_distance_between_things(self):
         """A ball of radius 1.5 at height 3 above a box of height 3; a chord above a torus; a disc's rim inside a sphere."""
         found = self.measure("ball", "--to", "chord")

@@ -40,7 +40,7 @@ class Search {
 
   // `good`: what is not above this need not be known better.
   Found run(double good) {
-    for (const CurvePiece& piece : a_.pieces()) add(piece.domain, kInfinity);
+    for (const CurvePiece& piece : a_.pieces()) add(piece.domain, kInfinity, look_at(piece.domain.middle()).t, good);
     for (const double t : {a_.domain().lo, a_.domain().hi}) look_at(t);
     int parts = 0;
     while (!parts_.empty() && parts_.top().upper > enough(good) && ++parts < most_parts_) {
@@ -51,8 +51,8 @@ class Search {
         rest_ = std::max(rest_, part.upper);
         continue;
       }
-      add({part.t.lo, middle}, part.upper);
-      add({middle, part.t.hi}, part.upper);
+      add({part.t.lo, middle}, part.upper, part.foot, good);
+      add({middle, part.t.hi}, part.upper, part.foot, good);
     }
     found_.upper = std::max({found_.lower, rest_, parts_.empty() ? 0.0 : parts_.top().upper});
     return found_;
@@ -62,6 +62,7 @@ class Search {
   struct Part {
     double upper;
     Interval t;
+    double foot;  // on the other curve, of the part's middle
     bool operator<(const Part& other) const { return upper < other.upper; }
   };
 
@@ -77,28 +78,53 @@ class Search {
     return foot;
   }
 
-  void add(const Interval& t, double upper) {
+  // A foot point by Newton's iteration from one that lies beside it; there may be a nearer one elsewhere.
+  CurveFootPoint foot_beside(const Vec3& point, double from) const {
+    constexpr int kSteps = 6;
+    const Interval domain = b_.domain();
+    double s = from;
+    CurveJet at = b_.evaluate(s, 2);
+    for (int step = 0; step < kSteps; ++step) {
+      const Vec3 way = at.d[0] - point;
+      const double square_of_speed = glm::dot(at.d[1], at.d[1]), slope = square_of_speed + glm::dot(way, at.d[2]);
+      const double next = domain.clamp(s - glm::dot(way, at.d[1]) / (slope > 0 ? slope : square_of_speed));
+      const bool is_there = std::abs(next - s) <= 1e-14 * domain.width();
+      s = next;
+      at = b_.evaluate(s, 2);
+      if (is_there) break;
+    }
+    return {s, at.d[0], glm::length(at.d[0] - point), FootPointKind::minimum};
+  }
+
+  // `foot_of_whole`: where that of the part's whole was. All foot points are looked for only where the one beside that
+  // is so far off that the point may be the farthest.
+  void add(const Interval& t, double upper, double foot_of_whole, double good) {
     const double middle = t.middle();
-    const CurveFootPoint foot = look_at(middle);
     const Vec3 point = a_.point(middle);
-    upper = std::min({upper, foot.distance + farthest(a_.enclose(t, 0).d[0], point), beside(t, point, foot)});
-    parts_.push({upper * (1 + kRounding), t});
+    CurveFootPoint foot = foot_beside(point, foot_of_whole);
+    const double near = std::max(good * (1 - 0.3 * kNearness), found_.lower * (1 + 0.3 * kNearness));
+    if (!(foot.distance <= near)) foot = look_at(middle);
+    const CurveEnclosure over_part = a_.enclose(t, 1);
+    upper = std::min({upper, foot.distance + farthest(over_part.d[0], point), beside(t, over_part.d[1], point, foot)});
+    parts_.push({upper * (1 + kRounding), t, foot.t});
   }
 
   // By |A(t) - B(s + k (t - m))| over the part, k so that both run side by side, or 0 at a corner of B.
-  double beside(const Interval& t, const Vec3& point, const CurveFootPoint& foot) const {
+  double beside(const Interval& t, const Box3& slope_of_a, const Vec3& point, const CurveFootPoint& foot) const {
     const Vec3 a1 = evaluate_within(a_, t, t.middle(), 1).d[1], b1 = b_.evaluate(foot.t, 1).d[1];
     const double square_of_speed = glm::dot(b1, b1);
     const double k = square_of_speed > 0 ? glm::dot(a1, b1) / square_of_speed : 0;
-    return std::min(beside(t, point, foot, 0), std::isfinite(k) ? beside(t, point, foot, k) : kInfinity);
+    return std::min(beside(t, slope_of_a, point, foot, 0),
+                    std::isfinite(k) ? beside(t, slope_of_a, point, foot, k) : kInfinity);
   }
 
   // w + F' (t - m), where w . F' is small if w lies across both curves.
-  double beside(const Interval& t, const Vec3& point, const CurveFootPoint& foot, double k) const {
+  double beside(const Interval& t, const Box3& slope_of_a, const Vec3& point, const CurveFootPoint& foot,
+                double k) const {
     const double half = 0.5 * t.width() * (1 + 1e-15);
     const Interval s(foot.t - std::abs(k) * half, foot.t + std::abs(k) * half);
     if (k != 0 && (s.lo < b_.domain().lo || s.hi > b_.domain().hi)) return kInfinity;
-    const Box3 slope = over(a_.enclose(t, 1).d[1], k, k == 0 ? Box3{Vec3(0), Vec3(0)} : b_.enclose(s, 1).d[1]);
+    const Box3 slope = over(slope_of_a, k, k == 0 ? Box3{Vec3(0), Vec3(0)} : b_.enclose(s, 1).d[1]);
     if (!slope.bounded()) return kInfinity;
     const Vec3 w = point - foot.point;
     Interval along_w(0);
