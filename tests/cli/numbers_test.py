@@ -242,6 +242,7 @@ geometry:
         self.assertEqual(len(found["minima"][0]["at_other"]["t_range"]), 2)
         found = self.measure("shell", "--to", "block")
         self.assertEqual((found["meet"], found["distance"], found["bound"]), (True, 0, 0))
+        self.assertEqual(set(found["minima"][0]), {"distance", "at", "at_other"})
         text = self.run_program("measure", "scene.yaml", "tire", "--to", "rim")[0]
         self.assertIn("places beside are as near", text)
         self.assertIn("they meet", self.run_program("measure", "scene.yaml", "shell", "--to", "block")[0])

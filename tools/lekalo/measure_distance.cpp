@@ -93,9 +93,11 @@ std::optional<geometry::Distant> distant(const render::Entity& entity) {
   return std::nullopt;
 }
 
-ordered_json end_row(const DistancePlace& place, bool isolated, const std::array<Interval, 2>& ranges) {
+bool has_width(const std::array<Interval, 2>& ranges) { return ranges[0].width() > 0 || ranges[1].width() > 0; }
+
+ordered_json end_row(const DistancePlace& place, bool has_ranges, const std::array<Interval, 2>& ranges) {
   ordered_json row = place_row(place);
-  if (isolated) return row;
+  if (!has_ranges) return row;
   if (row.contains("t")) row["t_range"] = range(ranges[0]);
   if (row.contains("u")) row["u_range"] = range(ranges[0]), row["v_range"] = range(ranges[1]);
   return row;
@@ -106,11 +108,16 @@ ordered_json minima(const geometry::Distant& a, const geometry::Distant& b, bool
       distance(a, b, nearest ? geometry::DistanceMinima::nearest : geometry::DistanceMinima::all);
   ordered_json out{{"distance", found.distance}, {"bound", found.bound}, {"meet", found.meet}};
   out["minima"] = ordered_json::array();
-  for (const DistanceMinimum& one : found.minima)
-    out["minima"].push_back({{"distance", one.distance},
-                             {"isolated", one.isolated},
-                             {"at", end_row(one.a, one.isolated, one.range_a)},
-                             {"at_other", end_row(one.b, one.isolated, one.range_b)}});
+  for (const DistanceMinimum& one : found.minima) {
+    // Of a place where surfaces meet nothing is known beside it.
+    const bool is_known = one.isolated || has_width(one.range_a) || has_width(one.range_b);
+    const bool has_ranges = is_known && !one.isolated;
+    ordered_json row{{"distance", one.distance}};
+    if (is_known) row["isolated"] = one.isolated;
+    row["at"] = end_row(one.a, has_ranges, one.range_a);
+    row["at_other"] = end_row(one.b, has_ranges, one.range_b);
+    out["minima"].push_back(std::move(row));
+  }
   return out;
 }
 
@@ -134,6 +141,10 @@ void print_minima(const ordered_json& found) {
   for (const ordered_json& one : found["minima"]) {
     fmt::print("  minimum  distance {}\n    from  {}\n    to    {}\n", digits(one["distance"].get<double>()),
                place_text(one["at"]), place_text(one["at_other"]));
+    if (!one.contains("isolated")) {
+      fmt::print("    one place of those where they meet; --intersect finds all\n");
+      continue;
+    }
     if (one["isolated"].get<bool>()) continue;
     const std::string at = ranges_text(one["at"]), other = ranges_text(one["at_other"]);
     fmt::print("    places beside are as near{}{}{}{}\n", at.empty() ? "" : ": from ", at,
