@@ -128,8 +128,15 @@ class Gltf(ProgramTest):
         del model["buffers"][0]["uri"]
         self.assertEqual(binary, model)
 
+    def test_named_geometry(self):
+        model = self.export("block", "rim")
+        nodes = self.nodes(model)
+        self.assertEqual(set(nodes), {"block", "rim"})
+        self.assertEqual(model["meshes"][nodes["rim"]["mesh"]]["primitives"][0]["mode"], 3)
+        self.assertNotIn("material", model["meshes"][nodes["block"]["mesh"]]["primitives"][0])
+
     def test_usage(self):
-        self.assertIn("whole scene", self.run_program("export", "things.yaml", "ball", "-o", "a.gltf", code=USAGE)[1])
+        self.assertIn("nothing", self.run_program("export", "things.yaml", "nothing", "-o", "a.gltf", code=USAGE)[1])
         self.run_program("export", "things.yaml", "-o", "none/a.gltf", code=FILE_ERROR)
         self.assertIn("5 nodes", self.run_program("export", "things.yaml", "--format", "gltf")[1])
 

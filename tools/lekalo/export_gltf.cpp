@@ -71,6 +71,29 @@ class Exporter {
     add_lines(shared);
     return std::move(scene_);
   }
+  // Geometry by name, as it is: without materials, and curves as lines.
+  render::GltfScene run(const render::LoadedScene& loaded, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      const render::Entity& entity = find_geometry(loaded, name);
+      render::GltfNode node;
+      node.name = name;
+      if (const auto* curve = std::get_if<geometry::CurvePtr>(&entity)) {
+        if (!((*curve)->domain().width() < geometry::kInfinity))
+          throw UsageError(fmt::format("'{}' has no ends: give it a domain", name));
+        node.line_material = line_material(Vec3(0));
+        node.lines.push_back(polyline_of(**curve));
+      } else {
+        MeshCollection collection(sag_);
+        collection.leave_out_curves();
+        collection.add(name, entity);
+        left_out_.insert(collection.left_out().begin(), collection.left_out().end());
+        node.mesh = collection.finish();
+        if (node.mesh.triangles.empty()) continue;
+      }
+      scene_.nodes.push_back(std::move(node));
+    }
+    return std::move(scene_);
+  }
   const std::set<std::string>& left_out() const { return left_out_; }
 
  private:
@@ -207,14 +230,15 @@ std::string page_of(const render::GltfScene& scene) {
 }  // namespace
 
 int export_gltf(const ExportOptions& options, const std::string& format, const std::string& output) {
-  if (!options.names.empty())
-    throw UsageError(fmt::format("--format {} writes the whole scene; leave the names out", format));
   const render::LoadedScene loaded = options.scene.load();
   check_inputs_stay(loaded, {output});
   Exporter exporter(*loaded.model, options.sag);
-  const render::GltfScene scene = exporter.run(loaded.model);
+  const render::GltfScene scene =
+      options.names.empty() ? exporter.run(loaded.model) : exporter.run(loaded, options.names);
   for (const std::string& note : exporter.left_out()) fmt::print(stderr, "note: {}\n", note);
-  if (scene.nodes.empty()) throw UsageError("there is nothing to export: no surface, body, mesh or line is shown");
+  if (scene.nodes.empty())
+    throw UsageError(options.names.empty() ? "there is nothing to export: no surface, body, mesh or line is shown"
+                                           : "there is nothing to export: no surface, body, mesh or curve is named");
   render::write_file_atomically(output, format == "gltf"  ? render::gltf_text(scene)
                                         : format == "glb" ? render::glb_bytes(scene)
                                                           : page_of(scene));
