@@ -205,6 +205,7 @@ geometry:
         found = self.measure("rim", "--to", "0,0,1")
         self.assert_near([found["distance"], *found["arcs"][0]], [math.sqrt(5), 0, 2 * math.pi], 1e-14)
         text = self.run_program("measure", "scene.yaml", "rim", "--to", "apex")[0]
+        self.assertEqual(self.measure("rim", "--to", "1,1")["feet"], self.measure("rim", "--to", "1,1,0")["feet"])
         self.assertIn("minimum", text)
 
     def test_umbilics_of_an_ellipsoid(self):

@@ -130,7 +130,10 @@ Answer against(const Inquiry& asked) {
 }
 
 Answer to(const Inquiry& asked) {
-  const std::string other = asked.value("--to");
+  std::string other = asked.value("--to");
+  // As in scene files, a point of a plane curve needs no z; of a surface two numbers might be meant for u and v.
+  if (std::holds_alternative<geometry::CurvePtr>(asked.entity) && std::count(other.begin(), other.end(), ',') == 1)
+    other += ",0";
   return {
       distance_to(asked.name, asked.entity, other, thing_or_point(asked.scene, other, "--to"), asked.told("--nearest")),
       print_distance};
