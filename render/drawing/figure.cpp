@@ -186,8 +186,7 @@ class ViewDrawing {
     for (const std::string& note : rendered.notes) add_once(note, figure_.notes);
     DisplayTransform transform;
     for (const OutputFile& file : model->outputs)
-      if (file.kind == "render" && file.path.ends_with(".png"))
-        transform = file.display;
+      if (file.kind == "render" && file.path.ends_with(".png")) transform = file.display;
     SheetPicture picture;
     picture.at = view_.at;
     picture.width = view_.width(), picture.height = view_.height();

@@ -241,8 +241,12 @@ void SuiteReader::read_test(const Value& given, const Counters& counters) {
                          "write - { name: sphere, scene: sphere.yaml }");
     return;
   }
-  const auto filled = builder_.fill_templates(completed(given), counters);
+  const Value whole = completed(given);
+  auto filled = builder_.fill_templates(whole, counters);
   if (!filled) return;
+  // Lists of texts are filled where they are read, and only once: %% must stay a percent sign.
+  for (Entry& entry : filled->entries)
+    if (entry.key.name == "include") entry.value = *whole.find("include");
   // Everything is looked at, whatever else is wrong: all errors in one run.
   const auto fields = builder_.read_fields(test_fields(), *filled, counters, "a test", {"repeat", "set"});
   SuiteTest test;

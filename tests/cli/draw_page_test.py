@@ -478,9 +478,9 @@ image: { size: [80 mm, auto], margin: 4 mm }
         self.assertEqual(errors.count("not in the drawing"), 3)
         self.assertNotIn("z", self.texts(root))
         panels = "panels: { a: { camera: { view: top } }, b: { camera: { view: front } } }\n"
-        errors = self.drawn(self.annotated(seen) + panels)[1]
-        self.assertRegex(errors, "diameter_dimension whose circle is seen from its edge .*, in the panel 'b'\n")
-        self.assertEqual(errors.count("not in the drawing"), 1)
+        errors = self.drawn(self.annotated(hidden) + panels)[1]
+        self.assertRegex(errors, "arrow 'z' seen end on .*, in the panel 'a'\n")
+        self.assertEqual(errors.count("not in the drawing"), 3)
 
     def test_short_dimensions(self):
         """A text that does not fit between the arrows stands upon the line's continuation, along any direction."""

@@ -30,7 +30,7 @@ class LocalBodies(ProgramTest):
 
     def test_walls_through_holes(self):
         self.refused(f"type: moved_faces, of: {SQUARE}, faces: side.3, distance: -1.2", "the loops of a face do not cross", "move them by less")
-        for by, condition in (0.9, "the loops of a face do not cross"), (2.1, "no inner loop lies within another"):
+        for by, condition in (0.9, "the faces side.4 and side.5 run into each other"), (2.1, "no inner loop lies within another"):
             self.refused(f"type: moved_faces, of: {PLATE}, faces: side.4, by: {{ translate: [{by}, 0, 0] }}", condition)
 
     def test_counters_in_names_of_faces(self):
