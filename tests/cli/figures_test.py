@@ -86,6 +86,17 @@ class Figures(ProgramTest):
                 paths = tree.parse(reference / "images" / name).iter("{http://www.w3.org/2000/svg}path")
                 self.assertGreater(len(list(paths)), 0)
 
+    def test_pages_of_the_gallery(self):
+        """Each page shows the pictures and scenes of its chapter, and no picture is left over."""
+        gallery, pictures = SCENES.parent / "docs/gallery", set()
+        for name, chapter in yaml.safe_load((gallery / "index.yaml").read_text()).items():
+            page = (gallery / f"{name}.md").read_text()
+            self.assertEqual(re.findall(r"!\[\]\((\S+)\.svg\)", page), [figure.split("/")[1] for figure in chapter["figures"]])
+            for link in re.findall(r"\]\(([^)]+)\)", page):
+                self.assertTrue((gallery / link).exists(), link)
+            pictures |= {pathlib.Path(figure).name + ".svg" for figure in chapter["figures"]}
+        self.assertEqual(pictures, {path.name for path in gallery.glob("*.svg")}, "run tools/figures gallery")
+
     def test_slips_on_the_command_line_of_the_script(self):
         """An option that there is not makes no folder of its name."""
         done = subprocess.run([SCENES.parent / "tools/figures", "--atlas"], cwd=self.folder, capture_output=True, text=True)
