@@ -2,7 +2,6 @@
 // our STEP files. Where volumes differ or it gives none, identities and rays through the CSG say which of both is
 // wrong.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
@@ -10,20 +9,16 @@
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <GProp_GProps.hxx>
-#include <Message.hxx>
-#include <Message_Messenger.hxx>
-#include <STEPControl_Reader.hxx>
 #include <Standard_Failure.hxx>
 #include <TopoDS_Shape.hxx>
 
 #include <ctime>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 
 #include "geometry/bodies/booleans/body_pairs.h"
 #include "geometry/bodies/booleans/boolean_checks.h"
+#include "occt/step_reader.h"
 #include "render/step/step_export.h"
 #include "support/tier.h"
 
@@ -35,17 +30,16 @@ using geometry::BooleanOperation;
 
 constexpr double kVolume = 1e-6;  // of both operands'
 
-TopoDS_Shape read_back(const Body& body) {
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / fmt::format("lekalo_booleans_test_{}.step", getpid());
-  std::ofstream(path)
-      << step_file({{"b", std::make_shared<Body>(body), {}, geometry::Vec3(0.5)}}, "b", "mm", 1e-9).text;
-  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
-  STEPControl_Reader reader;
-  EXPECT_EQ(reader.ReadFile(path.c_str()), IFSelect_RetDone);
-  std::filesystem::remove(path);
-  reader.TransferRoots();
-  return reader.OneShape();
+// By the STEP text that `export` writes.
+TopoDS_Shape occt_body(const Body& body) {
+  return tests::read_step(
+      step_file({{"b", std::make_shared<Body>(body), {}, geometry::Vec3(0.5)}}, "b", "mm", 1e-9).text);
+}
+
+double occt_volume(const TopoDS_Shape& shape) {
+  GProp_GProps volume;
+  BRepGProp::VolumeProperties(shape, volume, 1e-9);
+  return volume.Mass();
 }
 
 struct Answer {
@@ -54,14 +48,12 @@ struct Answer {
 };
 
 template <class Algorithm>
-Answer occt_volume(const TopoDS_Shape& a, const TopoDS_Shape& b) {
+Answer volume_of(const TopoDS_Shape& a, const TopoDS_Shape& b) {
   try {
     Algorithm algorithm(a, b);
     if (algorithm.HasErrors()) return {0, "an error"};
     if (!BRepCheck_Analyzer(algorithm.Shape()).IsValid()) return {0, "not valid"};
-    GProp_GProps volume;
-    BRepGProp::VolumeProperties(algorithm.Shape(), volume, 1e-9);
-    return {volume.Mass(), ""};
+    return {occt_volume(algorithm.Shape()), ""};
   } catch (const Standard_Failure& failure) {
     return {0, fmt::format("thrown: {}", failure.DynamicType()->Name())};
   }
@@ -96,8 +88,12 @@ TEST(BooleansBesideOcct, Volumes) {
   };
   for (int k = 0; k < pairs; ++k) {
     const geometry::BodyPair pair = geometry::BodyPairs(1000u + static_cast<unsigned>(k)).elementary();
-    const TopoDS_Shape a = read_back(pair.a), b = read_back(pair.b);
-    const double scale = measure(pair.a).volume.value + measure(pair.b).volume.value;
+    const TopoDS_Shape a = occt_body(pair.a), b = occt_body(pair.b);
+    const double volume_a = measure(pair.a).volume.value, volume_b = measure(pair.b).volume.value,
+                 scale = volume_a + volume_b;
+    // It has the same operands.
+    EXPECT_NEAR(occt_volume(a), volume_a, kVolume * scale) << k << ", " << pair.kind;
+    EXPECT_NEAR(occt_volume(b), volume_b, kVolume * scale) << k << ", " << pair.kind;
     const auto compare = [&](const char* name, const Answer& own, const Answer& of_occt) {
       if (!own.fault.empty()) {
         ++refused;
@@ -115,11 +111,11 @@ TEST(BooleansBesideOcct, Volumes) {
     };
     using enum BooleanOperation;
     compare("or", timed(seconds, [&] { return own_volume(unite, pair.a, pair.b); }),
-            timed(seconds_of_occt, [&] { return occt_volume<BRepAlgoAPI_Fuse>(a, b); }));
+            timed(seconds_of_occt, [&] { return volume_of<BRepAlgoAPI_Fuse>(a, b); }));
     compare("and", timed(seconds, [&] { return own_volume(intersect, pair.a, pair.b); }),
-            timed(seconds_of_occt, [&] { return occt_volume<BRepAlgoAPI_Common>(a, b); }));
+            timed(seconds_of_occt, [&] { return volume_of<BRepAlgoAPI_Common>(a, b); }));
     compare("minus", timed(seconds, [&] { return own_volume(subtract, pair.a, pair.b); }),
-            timed(seconds_of_occt, [&] { return occt_volume<BRepAlgoAPI_Cut>(a, b); }));
+            timed(seconds_of_occt, [&] { return volume_of<BRepAlgoAPI_Cut>(a, b); }));
   }
   tests::report_figure("refused", refused);
   tests::report_figure("compared", compared);

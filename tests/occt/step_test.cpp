@@ -7,9 +7,6 @@
 #include <BRepGProp.hxx>
 #include <GProp_GProps.hxx>
 #include <Interface_Static.hxx>
-#include <Message.hxx>
-#include <Message_Messenger.hxx>
-#include <STEPControl_Reader.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS_Shape.hxx>
 
@@ -19,6 +16,7 @@
 #include "geometry/curves/analytic/circle.h"
 #include "geometry/queries/measures/mass_properties.h"
 #include "geometry/surfaces/analytic/plane.h"
+#include "occt/step_reader.h"
 #include "render/scene/build/load.h"
 #include "render/step/step_export.h"
 
@@ -28,18 +26,6 @@ namespace {
 using geometry::BodyPtr;
 
 constexpr double kMass = 1e-6;
-
-TopoDS_Shape read_back(const std::string& text) {
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / fmt::format("lekalo_step_test_{}.step", getpid());
-  std::ofstream(path) << text;
-  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
-  STEPControl_Reader reader;
-  EXPECT_EQ(reader.ReadFile(path.c_str()), IFSelect_RetDone);
-  std::filesystem::remove(path);
-  reader.TransferRoots();
-  return reader.OneShape();
-}
 
 int count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
   int found = 0;
@@ -73,7 +59,7 @@ TEST_P(Step, ReadBackByOcct) {
   const BodyPtr body = body_of(GetParam().geometry);
   const StepFile file = step_file({{"b", body, {}, geometry::Vec3(0.5, 0.6, 0.7)}}, "b", "mm", 1e-9);
   for (const std::string& note : file.notes) EXPECT_EQ(note.find("left out"), std::string::npos) << note;
-  const TopoDS_Shape shape = read_back(file.text);
+  const TopoDS_Shape shape = tests::read_step(file.text);
   ASSERT_FALSE(shape.IsNull());
   EXPECT_EQ(count(shape, TopAbs_SOLID), GetParam().solids);
   EXPECT_EQ(count(shape, TopAbs_FACE), static_cast<int>(body->faces.size()));
@@ -153,13 +139,13 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Step, SheetsAndCurves) {
   geometry::Frame frame;
   const geometry::SurfacePtr surface = std::make_shared<geometry::Plane>(frame, geometry::Rectangle{{0, 2}, {0, 3}});
-  const TopoDS_Shape sheet = read_back(step_file({{"s", surface, {}, {}}}, "s", "mm", 1e-9).text);
+  const TopoDS_Shape sheet = tests::read_step(step_file({{"s", surface, {}, {}}}, "s", "mm", 1e-9).text);
   EXPECT_EQ(count(sheet, TopAbs_SOLID), 0);
   GProp_GProps area;
   BRepGProp::SurfaceProperties(sheet, area, 1e-9);
   EXPECT_NEAR(area.Mass(), 6, 1e-9);
   const geometry::CurvePtr arc = std::make_shared<geometry::Circle>(frame, 2.0, geometry::Interval{0.3, 1.7});
-  const TopoDS_Shape edge = read_back(step_file({{"c", arc, {}, {}}}, "c", "m", 1e-9).text);
+  const TopoDS_Shape edge = tests::read_step(step_file({{"c", arc, {}, {}}}, "c", "m", 1e-9).text);
   GProp_GProps length;
   BRepGProp::LinearProperties(edge, length);
   EXPECT_NEAR(length.Mass(), 2000 * 1.4, 1e-6);  // OCCT reads in millimetres
