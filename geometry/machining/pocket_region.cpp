@@ -27,21 +27,48 @@ constexpr double kMaxChords = 200;
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 Vec2 left_of(const Vec2& along) { return Vec2(-along.y, along.x) / glm::length(along); }
 
-// Sides that only touch do not cross.
+// Whether the way through a corner from `in` to `out` leaves `other_in` and `other_out` on two sides. One that lies on
+// the way touches it.
+bool parts(const Vec2& in, const Vec2& out, const Vec2& other_in, const Vec2& other_out) {
+  const auto turn_to = [&](const Vec2& d) {
+    const double angle = std::atan2(cross(in, d), glm::dot(in, d));
+    return angle < 0 ? angle + kTwoPi : angle;
+  };
+  const double way = turn_to(out), a = turn_to(other_in), b = turn_to(other_out);
+  for (const double angle : {a, b})
+    if (std::min({angle, kTwoPi - angle, std::abs(angle - way)}) < kSamePlace) return false;
+  return (a < way) != (b < way);
+}
+
+// Sides and corners that only touch do not cross.
 void check_crossings(const Polygon2& polygon, const std::string& field) {
   const size_t n = polygon.size();
   const auto side_of = [](const Vec2& a, const Vec2& b, const Vec2& p) {
     const double beside = cross(b - a, p - a) / glm::length(b - a);
     return std::abs(beside) <= kSamePlace * glm::length(b - a) ? 0.0 : beside;
   };
+  const auto lies_inside = [&](const Vec2& a, const Vec2& b, const Vec2& p) {
+    return side_of(a, b, p) == 0 && glm::dot(a - p, b - p) < 0;
+  };
+  const auto refuse = [&](const Vec2& at) {
+    throw FieldError(field, fmt::format("the contour crosses itself near ({:.6g}, {:.6g})", at.x, at.y),
+                     "a contour without loops");
+  };
+  // Whether the contour crosses at its corner k the way from one point to another that leads through it.
+  const auto is_crossed = [&](size_t k, const Vec2& from, const Vec2& to) {
+    const Vec2& corner = polygon[k];
+    return parts(polygon[(k + n - 1) % n] - corner, polygon[(k + 1) % n] - corner, from - corner, to - corner);
+  };
   for (size_t i = 0; i < n; ++i)
     for (size_t j = i + 2; j < n; ++j) {
       const Vec2 &a = polygon[i], &b = polygon[i + 1], &c = polygon[j], &d = polygon[(j + 1) % n];
+      const double same = kSamePlace * glm::length(b - a);
+      if (glm::length(c - a) <= same && is_crossed(i, polygon[j - 1], d)) refuse(a);
+      if (lies_inside(c, d, a) && is_crossed(i, c, d)) refuse(a);
+      if (lies_inside(a, b, c) && is_crossed(j, a, b)) refuse(c);
       const double to_c = side_of(a, b, c), to_d = side_of(a, b, d);
       if (!(to_c * to_d < 0) || !(side_of(c, d, a) * side_of(c, d, b) < 0)) continue;
-      const Vec2 at = glm::mix(c, d, to_c / (to_c - to_d));
-      throw FieldError(field, fmt::format("the contour crosses itself near ({:.6g}, {:.6g})", at.x, at.y),
-                       "a contour without loops");
+      refuse(glm::mix(c, d, to_c / (to_c - to_d)));
     }
 }
 
@@ -266,7 +293,8 @@ std::vector<Polygon2> contours_of(const Curve& outer, const std::vector<CurvePtr
   turn(contours[0], true);
   for (const CurvePtr& island : islands) {
     contours.push_back(polygon_of(*island, "islands", tolerance, height));
-    if (!contains(contours[0], contours.back()[0]))
+    const auto is_inside = [&](const Vec2& corner) { return contains(contours[0], corner); };
+    if (std::none_of(contours.back().begin(), contours.back().end(), is_inside))
       throw FieldError("islands",
                        fmt::format("island {} does not lie inside of the outer contour", contours.size() - 2),
                        "islands are left standing in the pocket");

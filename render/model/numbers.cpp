@@ -44,6 +44,9 @@ std::vector<std::string> numbers_of_scale(const std::vector<double>& values, int
   double step = largest;
   for (size_t k = 1; k < sorted.size(); ++k)
     if (const double apart = sorted[k] - sorted[k - 1]; apart > kEqual * largest) step = std::min(step, apart);
+  // A small number is to be told from 0 too.
+  for (const double value : values)
+    if (std::abs(value) > kEqual * largest) step = std::min(step, std::abs(value));
   int power = 0;
   if (largest > 0 && (largest < kSmall || (largest >= kLarge && power_of(largest) - power_of(step) < kFewDigits)))
     power = power_of(largest);

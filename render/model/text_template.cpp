@@ -19,7 +19,10 @@ bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0;
 bool begins_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 std::string number_text(double value, int decimals, bool in_formula) {
-  if (decimals >= 0) return fmt::format("{:.{}f}", value, decimals);
+  if (decimals >= 0) {
+    const std::string text = fmt::format("{:.{}f}", value, decimals);
+    return text.find_first_of("123456789") == std::string::npos && text.front() == '-' ? text.substr(1) : text;
+  }
   if (value == std::nearbyint(value) && std::abs(value) < 1e15) return fmt::format("{:.0f}", value + 0.0);
   const std::string text = fmt::format("{:.6g}", value);
   const std::size_t power = text.find('e');

@@ -101,6 +101,9 @@ class Details(ProgramTest):
         self.assertIn(">corner</tspan>", drawn[0])
         self.assertIn("not in the drawing: label 'outside' outside of the detail (l.yaml:", errors)
         self.assertEqual(*drawn)
+        through = "{ type: arrow, from: [0, 0, 8], to: [40, 0, 8], label: through }"
+        self.write("l.yaml", scene.replace("title: B } }", "title: B }, drawing: { annotations: [%s] } }" % through))
+        self.assertNotIn("not in the drawing", self.run_program("draw", "l.yaml", "-o", "l.svg")[1])
 
     def test_errors(self):
         for detail, scale, message in (("title: B", ", scale: 1", "has no scale, but the page has one"),

@@ -814,8 +814,8 @@ image: {{ size: [80 mm, 50 mm], margin: 3 mm }}
 
     def test_numbers_in_texts(self):
         """Decimals, and powers of ten, in a formula or not."""
-        root, _ = self.drawn(self.annotated("{ type: label, at: [0, 0], text: '%.2(1/3), %.1(2), $%(1e-9)$, %(2.5e20)' }"))
-        self.assertEqual(self.texts(root), ["0.33, 2.0, 10−9, 2.5·1020"])
+        root, _ = self.drawn(self.annotated("{ type: label, at: [0, 0], text: '%.2(1/3), %.1(2), $%(1e-9)$, %(2.5e20), %.2(-0.001)' }"))
+        self.assertEqual(self.texts(root), ["0.33, 2.0, 10−9, 2.5·1020, 0.00"])
 
     def test_panels_without_a_place(self):
         """A panel that the layout does not name is said to be left out, unless it has a file of its own."""

@@ -387,7 +387,7 @@ outputs: [touch.png]
                                (("tire", "--continuity"), "'tire' is neither a curve nor a body"),
                                (("rim", "--continuity", "chord"), "a closed curve has no ends"),
                                (("rim", "--continuity", "tire"), "do not join"),
-                               (("rim", "--to", "apexx"), "apex"), (("tire", "--to", "1,2"), "--to"),
+                               (("rim", "--to", "apexx"), "apex"), (("tire", "--to", "1,2"), "--to"), (("pole", "--to", "1,2"), "--to"),
                                (("rim", "--section", "0,0,0,0,0,1"), "neither a surface nor a body"),
                                (("tire", "--section", "0,0,0"), "--section"),
                                (("tire", "--section", "0,0,0,0,0,0"), "normal of the plane"),

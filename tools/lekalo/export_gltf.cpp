@@ -77,19 +77,13 @@ class Exporter {
       const render::Entity& entity = find_geometry(loaded, name);
       render::GltfNode node;
       node.name = name;
-      if (const auto* curve = std::get_if<geometry::CurvePtr>(&entity)) {
-        if (!((*curve)->domain().width() < geometry::kInfinity))
-          throw UsageError(fmt::format("'{}' has no ends: give it a domain", name));
-        node.line_material = line_material(Vec3(0));
-        node.lines.push_back(polyline_of(**curve));
-      } else {
-        MeshCollection collection(sag_);
-        collection.leave_out_curves();
-        collection.add(name, entity);
-        left_out_.insert(collection.left_out().begin(), collection.left_out().end());
-        node.mesh = collection.finish();
-        if (node.mesh.triangles.empty()) continue;
-      }
+      MeshCollection collection(sag_);
+      collection.add(name, entity);
+      left_out_.insert(collection.left_out().begin(), collection.left_out().end());
+      node.lines = collection.lines();
+      if (!node.lines.empty()) node.line_material = line_material(Vec3(0));
+      node.mesh = collection.finish();
+      if (node.mesh.triangles.empty() && node.lines.empty()) continue;
       scene_.nodes.push_back(std::move(node));
     }
     return std::move(scene_);

@@ -129,11 +129,18 @@ Answer against(const Inquiry& asked) {
   return {compare_with_table(asked.name, asked.entity, load_table(with), with, asked.tolerance()), print_comparison};
 }
 
+// Whether a point beside it needs no z, as in scene files: of a curve in the plane z = 0. Of a surface two numbers
+// might be meant for u and v.
+bool is_in_plane_of_x_and_y(const render::Entity& entity) {
+  const auto* curve = std::get_if<geometry::CurvePtr>(&entity);
+  if (!curve) return false;
+  const geometry::Box3 box = (*curve)->enclose((*curve)->domain(), 0).d[0];
+  return std::max(std::abs(box.lo.z), std::abs(box.hi.z)) <= 1e-12 * box.diameter();
+}
+
 Answer to(const Inquiry& asked) {
   std::string other = asked.value("--to");
-  // As in scene files, a point of a plane curve needs no z; of a surface two numbers might be meant for u and v.
-  if (std::holds_alternative<geometry::CurvePtr>(asked.entity) && std::count(other.begin(), other.end(), ',') == 1)
-    other += ",0";
+  if (is_in_plane_of_x_and_y(asked.entity) && std::count(other.begin(), other.end(), ',') == 1) other += ",0";
   return {
       distance_to(asked.name, asked.entity, other, thing_or_point(asked.scene, other, "--to"), asked.told("--nearest")),
       print_distance};

@@ -110,7 +110,7 @@ ordered_json minima(const geometry::Distant& a, const geometry::Distant& b, bool
   out["minima"] = ordered_json::array();
   for (const DistanceMinimum& one : found.minima) {
     // Of a place where surfaces meet nothing is known beside it.
-    const bool is_known = one.isolated || has_width(one.range_a) || has_width(one.range_b);
+    const bool is_known = !found.meet || one.isolated || has_width(one.range_a) || has_width(one.range_b);
     const bool has_ranges = is_known && !one.isolated;
     ordered_json row{{"distance", one.distance}};
     if (is_known) row["isolated"] = one.isolated;

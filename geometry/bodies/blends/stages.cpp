@@ -76,11 +76,11 @@ std::vector<BlendRequest> renumbered(std::vector<BlendRequest> requests, const s
   return requests;
 }
 
-// Numbers where several have one name.
 bool is_of_role(const Origin& origin, const std::string& role) {
   return origin.role == role || origin.role.starts_with(role + ".");
 }
 
+// Numbers where several have one name.
 template <class Entity>
 void number_equals(std::vector<Entity>& entities, const std::set<std::string>& roles) {
   std::map<std::string, int> count, next;

@@ -114,7 +114,7 @@ double nearness(const Frame& frame, const std::vector<Vec3>& directions, double 
   return nearest;
 }
 
-// The frame whose seam and poles stay farthest from the curves, of some hundred; the own one where that is clear.
+// The frame whose seam and poles stay farthest from the curves, of those of a grid; the own one where that is clear.
 std::optional<Frame> clear_frame(const Frame& own, const std::vector<Vec3>& directions) {
   constexpr double kClear = 0.999, kClearEnough = 0.99;  // cosines
   constexpr int kPoles = 80, kMeridians = 16;

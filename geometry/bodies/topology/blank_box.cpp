@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kTried = 30;  // angles over a right angle
 constexpr double kAngle = 1e-9;
+constexpr double kEqual = 1e-9;  // of an area: these are one
 
 // What the thing takes of the directions across the axis.
 class Widths {
@@ -63,7 +64,9 @@ BlankBox blank_box(const Distant& of, const Box3& box, const Vec3& axis) {
   for (int k = 0; k < kTried; ++k) {
     take(k * step, areas[k]);
     // A right angle on, the sides change places.
-    if (areas[k] > areas[(k + kTried - 1) % kTried] || areas[k] > areas[(k + 1) % kTried]) continue;
+    const double before = areas[(k + kTried - 1) % kTried], behind = areas[(k + 1) % kTried];
+    // Of what is round all are equal but for rounding, and there is nothing to look for.
+    if (areas[k] > std::min(before, behind) || areas[k] > (1 - kEqual) * std::max(before, behind)) continue;
     const double found = least_between(widths, (k - 1) * step, (k + 1) * step);
     take(found, widths.area(found));
   }

@@ -439,7 +439,9 @@ struct NearestOnSurface::Prepared {
   std::optional<SurfaceProjector> projector;  // of planes and parts instead, which have few foot points
 
   explicit Prepared(const SurfacePtr& of) {
-    if (of->bounded() && parts_between_steps(of).parts.empty() && smooth_parts(of).size() <= 1)
+    const SteppedParts stepped = parts_between_steps(of);
+    demand_known(stepped);
+    if (of->bounded() && stepped.parts.empty() && smooth_parts(of).size() <= 1)
       cells = near_cells(surface.emplace(of));
     else
       projector.emplace(of);

@@ -55,30 +55,29 @@ class UmbilicSearch {
     Vec2 best = place;
     for (int step = 0; step < kSteps; ++step) {
       const auto here = at(place);
-      if (!here) return std::nullopt;
+      if (!here) break;
       if (is_zero(*here, 0.01 * kEqual)) {
         // As near as rounding allows: until no step comes nearer.
         const double apart = glm::length(here->w);
-        if (!(apart < least)) {
-          place = best;
-          break;
-        }
+        if (!(apart < least)) break;
         least = apart, best = place;
+        if (apart == 0) break;
       }
       const Vec2 h(kDifference * piece.u.width(), kDifference * piece.v.width());
       const auto u1 = at(place + Vec2(h.x, 0)), u0 = at(place - Vec2(h.x, 0)), v1 = at(place + Vec2(0, h.y)),
                  v0 = at(place - Vec2(0, h.y));
-      if (!u1 || !u0 || !v1 || !v0) return std::nullopt;
+      if (!u1 || !u0 || !v1 || !v0) break;
       const Vec2 du = (u1->w - u0->w) / (2 * h.x), dv = (v1->w - v0->w) / (2 * h.y);
       const double det = du.x * dv.y - du.y * dv.x;
-      if (!(std::abs(det) > 0)) return std::nullopt;
+      if (!(std::abs(det) > 0)) break;
       Vec2 by = -Vec2(here->w.x * dv.y - here->w.y * dv.x, du.x * here->w.y - du.y * here->w.x) / det;
       // Not farther than a few cells of the grid.
       const double far = std::max(std::abs(by.x) / piece.u.width(), std::abs(by.y) / piece.v.width()) * kGrid / 2;
       if (far > 1) by /= far;
       place += by;
-      if (off(place.x, piece.u) > kBeyond || off(place.y, piece.v) > kBeyond) return std::nullopt;
+      if (off(place.x, piece.u) > kBeyond || off(place.y, piece.v) > kBeyond) break;
     }
+    if (least < kInfinity) place = best;
     if (off(place.x, piece.u) > kSame || off(place.y, piece.v) > kSame) return std::nullopt;
     place = {piece.u.clamp(place.x), piece.v.clamp(place.y)};
     const auto here = at(place);

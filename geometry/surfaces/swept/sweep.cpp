@@ -172,8 +172,7 @@ FrameLaw read_frame(const Fields& f) {
       throw FieldError("frame", "a frame follows a direction or a curve",
                        "give { fixed: direction }, or { given: curve }");
     law.kind = FrameKind::fixed;
-    if (f.group("frame").has("given")) return law;
-    law.fixed = f.group("frame").vec3("fixed");
+    if (f.group("frame").has("fixed")) law.fixed = f.group("frame").vec3("fixed");
   } else {
     law.kind = f.text("frame") == "frenet" ? FrameKind::normal : FrameKind::rotation_minimizing;
   }

@@ -219,14 +219,24 @@ class Added {
   std::array<size_t, 7> sizes_;
 };
 
-// Whether it speaks of places, all of them outside of a detail's circle. Paths of light may lead through it.
+double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 along = b - a;
+  const double square = glm::dot(along, along);
+  const double t = square > 0 ? std::clamp(glm::dot(p - a, along) / square, 0.0, 1.0) : 0;
+  return glm::length(a + t * along - p);
+}
+
+// Whether it speaks of places, and these and the way from one to the next lie outside of a detail's circle. Paths of
+// light may lead through it.
 bool is_outside(const View& view, const std::string& type, std::span<const Vec3> anchors, const Detail& detail) {
   constexpr double kRounding = 1e-6;  // of the radius
   if (anchors.empty() || type == "light_path") return false;
   const PageCircle circle = circle_of(view, detail);
-  return std::all_of(anchors.begin(), anchors.end(), [&](const Vec3& point) {
-    return glm::length(view.place(point) - circle.center) > (1 + kRounding) * circle.radius;
-  });
+  for (size_t k = 0; k < anchors.size(); ++k) {
+    const Vec2 from = view.place(anchors[k == 0 ? 0 : k - 1]), to = view.place(anchors[k]);
+    if (distance_to_segment(circle.center, from, to) <= (1 + kRounding) * circle.radius) return false;
+  }
+  return true;
 }
 
 }  // namespace

@@ -340,7 +340,7 @@ void add_round_dimension(AnnotationWork& work, bool diameter) {
   const auto on = [&](double at) { return view.place(frame.point(radius * Vec3(std::cos(at), std::sin(at), 0))); };
   const Vec2 near = on(t), far = on(t + kPi);
   const double span = diameter ? glm::length(near - far) : glm::length(near - center);
-  if (span < kSeenEndOn) return work.leave_out("whose circle is seen from its edge");
+  if (span < kSeenEndOn) return work.leave_out("whose circle is too small to be seen");
   const Vec2 out = glm::normalize(near - (diameter ? far : center));
   const double head = work.style().arrow_size, tail = kTail * head;
   const bool fits = span >= kMinForHeads * head;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include "geometry/queries/contours/contour_approximation.h"
@@ -82,14 +83,19 @@ class Drawing {
     });
     std::vector<std::vector<double>> events(strokes_.size());
     for (size_t k = 0; k < strokes_.size(); ++k) {
-      if (progress_) progress_(static_cast<double>(k) / strokes_.size());
+      if (progress_) progress_(0.5 * static_cast<double>(k) / strokes_.size());
       if (is_asked(k)) events[k] = events_of(static_cast<int>(k), crossings);
     }
     result_.statistics.seconds_of_crossings = seconds_since(begin);
     begin = std::chrono::steady_clock::now();
     std::vector<std::vector<VisiblePiece>> pieces(strokes_.size());
+    std::mutex telling;
+    size_t done = 0;
     each_line([&](size_t k) {
       if (is_asked(k)) pieces[k] = pieces_of(static_cast<int>(k), std::move(events[k]));
+      if (!progress_) return;
+      const std::lock_guard lock(telling);
+      progress_(0.5 + 0.5 * static_cast<double>(++done) / strokes_.size());
     });
     result_.statistics.seconds_of_rays = seconds_since(begin);
     for (size_t k = 0; k < strokes_.size(); ++k) {
