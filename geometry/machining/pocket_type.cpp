@@ -41,7 +41,8 @@ TypeDeclaration pocket_type() {
           "outer: { type: rectangle, size: [8, 5] }, islands: [{ type: circle, radius: 1 }], tool_radius: 0.3, "
           "allowance: [0.1, 0.2]")
       .field("outer", reference({Category::curve}), "closed contour, in a plane of constant z")
-      .optional("islands", references({Category::curve}), "closed contours that are left standing inside of it; they may meet")
+      .optional("islands", references({Category::curve}),
+                "closed contours that are left standing inside of it; they may meet")
       .field("tool_radius", length().positive(), "of the tool that clears")
       .field("allowance", range(), "what it leaves at the contours: at least, at most; polygons run in between")
       .optional("step", length().positive(), "between the rows of a zigzag, at most; the tool's radius without it")
