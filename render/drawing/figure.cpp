@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "geometry/queries/rays/fitted_pieces.h"
 #include "render/cameras/framed_content.h"
 #include "render/cameras/window.h"
 #include "render/drawing/annotations/annotations.h"
@@ -513,6 +514,7 @@ void note_unplaced_panels(const Model& model, Figure& figure) {
 }  // namespace
 
 Figure figure_of(const std::shared_ptr<const Model>& given, const FigureOptions& options) {
+  const KeptFits kept;
   Model model = *given;
   Figure figure;
   if (!(model.paper.width > 0)) {

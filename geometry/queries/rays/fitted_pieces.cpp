@@ -9,8 +9,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 #include "geometry/numerics/chebyshev.h"
+#include "geometry/surfaces/nets/boolean_sum.h"
 
 namespace lekalo::geometry {
 
@@ -101,37 +104,63 @@ SurfacePiece patch_of(const Fit& fit) {
   return piece;
 }
 
+// Boolean sums evaluate each operand once for a row or a column.
+std::vector<Vec3> grid_points(const Surface& surface, const std::vector<double>& u, const std::vector<double>& v) {
+  if (const auto* blended = dynamic_cast<const BlendedSurface*>(&surface)) return points_over_grid(*blended, u, v);
+  std::vector<Vec3> points;
+  points.reserve(u.size() * v.size());
+  for (const double at_u : u)
+    for (const double at_v : v) points.push_back(surface.point(at_u, at_v));
+  return points;
+}
+
 // Beyond `farthest` distances are not known to the end.
 void fit(const Surface& surface, Fit& fit, double tolerance, double farthest) {
+  // Points (x_i, y_j) at i * (number of y_j) + j.
+  const auto points = [&](std::vector<double> x, std::vector<double> y) {
+    for (double& one : x) one = fit.u(one);
+    for (double& one : y) one = fit.v(one);
+    return grid_points(surface, x, y);
+  };
+  std::vector<double> nodes;
+  for (int j = 0; j < kNodes; ++j) nodes.push_back(node(j));
+  const std::vector<Vec3> values = points(nodes, nodes);
   for (int i = 0; i < kNodes; ++i)
-    for (int j = 0; j < kNodes; ++j) fit.values[i][j] = surface.point(fit.u(node(i)), fit.v(node(j)));
+    for (int j = 0; j < kNodes; ++j) fit.values[i][j] = values[i * kNodes + j];
   const auto off = [&](const Vec3& point, const Vec3& there) {
     const double distance = glm::length(point - there);
     return std::isfinite(distance) ? distance : kInfinity;
   };
+  constexpr std::array<int, 3> kTriedNodes{0, 3, 7};
+  const std::vector<double> tried{node(0), node(3), node(7)};
   for (const int k : {0, 3, 4, 8}) {
     const double x = extremum(k);
     const auto weights = lagrange_at(x);
-    for (const int j : {0, 3, 7}) {
+    const std::vector<Vec3> at_u = points({x}, tried), at_v = points(tried, {x});
+    for (size_t m = 0; m < tried.size(); ++m) {
+      const int j = kTriedNodes[m];
       Vec3 along_u(0), along_v(0);
       for (int i = 0; i < kNodes; ++i) {
         along_u += weights[i] * fit.values[i][j];
         along_v += weights[i] * fit.values[j][i];
       }
-      fit.off_u = std::max(fit.off_u, off(along_u, surface.point(fit.u(x), fit.v(node(j)))));
-      fit.off_v = std::max(fit.off_v, off(along_v, surface.point(fit.u(node(j)), fit.v(x))));
+      fit.off_u = std::max(fit.off_u, off(along_u, at_u[m]));
+      fit.off_v = std::max(fit.off_v, off(along_v, at_v[m]));
     }
     if (fit.off_u > farthest && fit.off_v > farthest) return;
   }
   if (!fit.is_near(farthest)) return;
-  for (int k = 0; k <= kNodes; k += 2)
-    for (int l = 0; l <= kNodes; l += 2) {
-      const double x = extremum(k), y = extremum(l);
+  std::vector<double> extrema;
+  for (int k = 0; k <= kNodes; k += 2) extrema.push_back(extremum(k));
+  const std::vector<Vec3> there = points(extrema, extrema);
+  for (size_t k = 0; k < extrema.size(); ++k)
+    for (size_t l = 0; l < extrema.size(); ++l) {
+      const double x = extrema[k], y = extrema[l];
       const auto in_u = lagrange_at(x), in_v = lagrange_at(y);
       Vec3 sum(0);
       for (int i = 0; i < kNodes; ++i)
         for (int j = 0; j < kNodes; ++j) sum += in_u[i] * in_v[j] * fit.values[i][j];
-      const double here = off(sum, surface.point(fit.u(x), fit.v(y)));
+      const double here = off(sum, there[k * extrema.size() + l]);
       if (here > 4 * tolerance) fit.off_u = std::max(fit.off_u, here), fit.off_v = std::max(fit.off_v, here);
     }
 }
@@ -206,6 +235,43 @@ FittedPieces fitted_pieces(const Surface& surface, const std::vector<Rectangle>&
     open = std::move(next);
   }
   return result;
+}
+
+namespace {
+
+struct Kept {
+  std::mutex guard;
+  int asking = 0;
+  std::map<SurfacePtr, std::shared_ptr<const FittedPieces>> fits;
+};
+Kept& kept() {
+  static Kept all;
+  return all;
+}
+
+}  // namespace
+
+std::shared_ptr<const FittedPieces> fitted_pieces(const SurfacePtr& surface) {
+  Kept& all = kept();
+  {
+    const std::lock_guard lock(all.guard);
+    if (const auto found = all.fits.find(surface); found != all.fits.end()) return found->second;
+  }
+  std::vector<Rectangle> boxes;
+  for (const SurfacePiece& piece : surface->pieces()) boxes.push_back(piece.domain);
+  auto fit = std::make_shared<const FittedPieces>(fitted_pieces(*surface, boxes));
+  const std::lock_guard lock(all.guard);
+  if (all.asking > 0) all.fits.emplace(surface, fit);
+  return fit;
+}
+
+KeptFits::KeptFits() {
+  const std::lock_guard lock(kept().guard);
+  ++kept().asking;
+}
+KeptFits::~KeptFits() {
+  const std::lock_guard lock(kept().guard);
+  if (--kept().asking == 0) kept().fits.clear();
 }
 
 }  // namespace lekalo::geometry

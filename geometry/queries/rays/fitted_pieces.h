@@ -2,6 +2,7 @@
 // others costs much to evaluate and far more to enclose; lines meet its patches as they meet Bezier pieces.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "geometry/surface.h"
@@ -22,5 +23,18 @@ struct FittedPieces {
 // points, on parts as small as it takes. The distance is looked at where the error of interpolation is largest, not
 // proven.
 FittedPieces fitted_pieces(const Surface& surface, const std::vector<Rectangle>& boxes);
+
+// The same over all pieces of the surface, none of them rational.
+std::shared_ptr<const FittedPieces> fitted_pieces(const SurfacePtr& surface);
+
+// While one lives, what fitted_pieces finds of a whole surface is kept for those that ask again: of a drawing both its
+// rays and its lines do.
+class KeptFits {
+ public:
+  KeptFits();
+  ~KeptFits();
+  KeptFits(const KeptFits&) = delete;
+  KeptFits& operator=(const KeptFits&) = delete;
+};
 
 }  // namespace lekalo::geometry

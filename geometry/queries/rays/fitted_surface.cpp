@@ -294,12 +294,9 @@ class FittedSurface final : public Surface {
 
 SurfacePtr fitted_copy(const SurfacePtr& surface) {
   if (!surface->is_composed() || !surface->bounded()) return surface;
-  std::vector<Rectangle> boxes;
-  for (const SurfacePiece& piece : surface->pieces()) {
+  for (const SurfacePiece& piece : surface->pieces())
     if (piece.is_rational()) return surface;
-    boxes.push_back(piece.domain);
-  }
-  return std::make_shared<FittedSurface>(surface, fitted_pieces(*surface, boxes));
+  return std::make_shared<FittedSurface>(surface, *fitted_pieces(surface));
 }
 
 }  // namespace lekalo::geometry

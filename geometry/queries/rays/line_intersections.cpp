@@ -218,14 +218,12 @@ class JointTarget : public LineTarget {
   std::vector<std::pair<size_t, int>> pieces_;  // target, its piece
 };
 
-std::unique_ptr<LineTarget> make_fitted_target(const SurfacePtr& surface, const std::vector<Rectangle>& boxes,
-                                               const std::shared_ptr<const TrimRegion>& trim, double min_area,
-                                               const CellBudget& wanted) {
-  FittedPieces fitted = fitted_pieces(*surface, boxes);
+std::unique_ptr<LineTarget> make_fitted_target(const SurfacePtr& surface, const std::shared_ptr<const TrimRegion>& trim,
+                                               double min_area, const CellBudget& wanted) {
+  const std::shared_ptr<const FittedPieces> fitted = fitted_pieces(surface);
   auto result = std::make_unique<JointTarget>(surface);
-  if (!fitted.patches.empty())
-    result->add(std::make_unique<PatchTarget>(surface, std::move(fitted.patches), trim, min_area));
-  if (!fitted.rest.empty()) result->add(std::make_unique<EnclosureTarget>(surface, fitted.rest, trim, wanted));
+  if (!fitted->patches.empty()) result->add(std::make_unique<PatchTarget>(surface, fitted->patches, trim, min_area));
+  if (!fitted->rest.empty()) result->add(std::make_unique<EnclosureTarget>(surface, fitted->rest, trim, wanted));
   return result;
 }
 
@@ -236,9 +234,9 @@ std::unique_ptr<LineTarget> make_smooth_target(SurfacePtr surface, std::shared_p
   const bool rational =
       std::all_of(pieces.begin(), pieces.end(), [](const SurfacePiece& piece) { return piece.is_rational(); });
   if (rational) return std::make_unique<PatchTarget>(std::move(surface), std::move(pieces), std::move(trim), min_area);
+  if (surface->is_composed()) return make_fitted_target(surface, trim, min_area, wanted);
   std::vector<Rectangle> boxes;
   for (const SurfacePiece& piece : pieces) boxes.push_back(piece.domain);
-  if (surface->is_composed()) return make_fitted_target(surface, boxes, trim, min_area, wanted);
   return std::make_unique<EnclosureTarget>(std::move(surface), boxes, std::move(trim), wanted);
 }
 

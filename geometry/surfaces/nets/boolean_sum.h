@@ -37,6 +37,10 @@ using BlendedSurface = ComposedSurface<BooleanSum>;
 // others over its v; either family may be empty.
 BlendedSurface blended_surface(BooleanSum sum, const Rectangle& domain, const Periods& periods = {});
 
+// Its points (u_i, v_j) at i * v.size() + j: every operand is evaluated once for each u, or v.
+std::vector<Vec3> points_over_grid(const BlendedSurface& surface, const std::vector<double>& u,
+                                   const std::vector<double>& v);
+
 // Functions over the span of `nodes` (increasing): each is 1 at its node and 0 at the others.
 std::vector<CurvePtr> lagrange_functions(const std::vector<double>& nodes);
 // Cubic Hermite splines whose derivatives at the nodes are those of the parabola through three neighbours, at the ends
