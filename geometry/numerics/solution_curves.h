@@ -21,6 +21,10 @@
 // its tolerance.
 #pragma once
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include "geometry/numerics/solution_charts.h"
 #include "geometry/vectors.h"
 
@@ -110,7 +114,7 @@ class Search {
         break;
       }
       boxes_.clear();
-      for (const Box& box : level) visit(box);
+      visit_all(level);
       level.swap(boxes_);
     }
     result_.open = joined_boxes<N>(result_.open, slack_box());
@@ -144,13 +148,58 @@ class Search {
     return f;
   }
 
-  void visit(const Box& box) {
+  // What a box turns out to be, told by itself alone.
+  struct Examined {
+    enum class Kind { without, cut, chart, undecided } kind = Kind::without;
+    Box left;  // of a box that is cut
+    Place middle;
+    std::optional<ChartBox<N, M>> over;
+  };
+
+  void visit(const Box& box) { visit(box, examined(box)); }
+  void visit(const Box& box, const Examined& as) {
+    switch (as.kind) {
+      case Examined::Kind::without:
+        return;
+      case Examined::Kind::cut:
+        return boxes_.push_back(as.left);
+      case Examined::Kind::chart:
+        return cover(*as.over, as.middle);
+      case Examined::Kind::undecided:
+        return divide(box);
+    }
+  }
+
+  void visit_all(const std::vector<Box>& level) {
+    if constexpr (requires { requires System::kKeepsNothing; }) {
+      constexpr size_t kAtOnce = 512, kForOneThread = 8;
+      std::vector<Examined> all(std::min(level.size(), kAtOnce));
+      for (size_t first = 0; first < level.size(); first += kAtOnce) {
+        const size_t count = std::min(kAtOnce, level.size() - first);
+        // Whoever waits here does nothing else meanwhile: it may hold what others wait for.
+        tbb::this_task_arena::isolate([&] {
+          tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kForOneThread),
+                            [&](const tbb::blocked_range<size_t>& some) {
+                              for (size_t k = some.begin(); k < some.end(); ++k) all[k] = examined(level[first + k]);
+                            });
+        });
+        for (size_t k = 0; k < count; ++k) visit(level[first + k], all[k]);
+      }
+    } else {
+      for (const Box& box : level) visit(box);
+    }
+  }
+
+  Examined examined(const Box& box) const {
+    Examined result;
     for (const Box& known : options_.settled)
-      if (contains<N>(known, box)) return;
+      if (contains<N>(known, box)) return result;
+    if constexpr (requires { system_.is_excluded(box); })
+      if (system_.is_excluded(box)) return result;
     const SystemValue<Interval, N, M> range = system_.enclose(box);
     for (int k = 0; k < M; ++k)
-      if (range.value[k].lo > options_.rounding[k] || range.value[k].hi < -options_.rounding[k]) return;
-    Place middle;
+      if (range.value[k].lo > options_.rounding[k] || range.value[k].hi < -options_.rounding[k]) return result;
+    Place& middle = result.middle;
     std::array<double, N> sides;
     for (int i = 0; i < N; ++i) middle[i] = box[i].middle(), sides[i] = box[i].width();
     const SystemValue<double, N, M> there = system_.evaluate_middle(box);
@@ -162,9 +211,13 @@ class Search {
       Box reached = box;
       if constexpr (M == N - 1) {
         reached = over.reachable(box[chart->along], middle, rounded(there), widened(box, chart->along), kCuts);
-        if (is_empty<N>(reached)) return;
+        if (is_empty<N>(reached)) return result;
       }
-      if (over.is_one_to_one()) return cover(over, middle);
+      if (over.is_one_to_one()) {
+        result.kind = Examined::Kind::chart;
+        result.over.emplace(over);
+        return result;
+      }
       double share = 1;
       for (int i = 0; i < N; ++i) {
         const Interval part = intersect(reached[i], box[i]);
@@ -172,12 +225,13 @@ class Search {
         share *= reached[i].width() / box[i].width();
       }
       if (share < kWorthCutting) {
-        boxes_.push_back(reached);
-        return;
+        result.kind = Examined::Kind::cut;
+        result.left = reached;
+        return result;
       }
     }
-    if (is_excluded(box, range, middle, there, sides)) return;
-    divide(box);
+    if (!is_excluded(box, range, middle, there, sides)) result.kind = Examined::Kind::undecided;
+    return result;
   }
 
   // With the slack of the domain's border, but for one unknown.
@@ -750,6 +804,11 @@ class Search {
 //     bounds of how far each parameter moves the image in space, over a box
 //   Vec3 motion(const ParameterPoint<N>&, const ParameterPoint<N>&) const
 //     velocity in space: at a place, moving so
+// and may have
+//   static constexpr bool kKeepsNothing = true
+//     enclose and evaluate_middle may be asked from many threads at once
+//   bool is_excluded(const ParameterBox<N>&) const
+//     at less cost than enclose: whether a box holds no solution
 template <int N, int M = N - 1, class System>
 SolutionCurves<N> search_solution_curves(const System& system, const ParameterBox<N>& domain,
                                          const SolutionCurveOptions<N, M>& options) {

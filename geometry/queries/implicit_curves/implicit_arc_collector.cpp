@@ -1,5 +1,8 @@
 #include "geometry/queries/implicit_curves/implicit_arc_collector.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -107,15 +110,20 @@ void Collector::add(std::vector<Vec3> nodes, bool closed, bool begins_singular, 
     const Vec3 chord = nodes[k + 1] - nodes[k], q = nodes[k] + share * chord;
     return solved(formula_, condition_, q, chord / glm::length(chord), 0.5 * glm::length(chord)).value_or(q);
   };
+  std::vector<std::shared_ptr<const PolynomialCurve>> curves(pieces.size());
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(size_t{0}, pieces.size(), [&](size_t k) {
+      const Interval& piece = pieces[k];
+      const double rounding = std::max(rounding_at(point(piece.lo)), rounding_at(point(piece.hi)));
+      for (const double agree : kAgree) {
+        if (agree * size_ < rounding && agree < std::end(kAgree)[-1]) continue;
+        curves[k] = polynomial_approximation(point, {&piece, 1}, agree * size_);
+        if (curves[k]) break;
+      }
+    });
+  });
   std::vector<PolynomialCurve::Part> parts;
-  for (const Interval& piece : pieces) {
-    std::shared_ptr<const PolynomialCurve> curve;
-    const double rounding = std::max(rounding_at(point(piece.lo)), rounding_at(point(piece.hi)));
-    for (const double agree : kAgree) {
-      if (agree * size_ < rounding && agree < std::end(kAgree)[-1]) continue;
-      curve = polynomial_approximation(point, {&piece, 1}, agree * size_);
-      if (curve) break;
-    }
+  for (const auto& curve : curves) {
     if (!curve) {
       result_.complete = false;
       return;

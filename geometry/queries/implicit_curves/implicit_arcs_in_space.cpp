@@ -9,15 +9,22 @@ namespace {
 // Unknowns x, y, z.
 struct InSpace {
   static constexpr int kUnknowns = 3;
+  static constexpr bool kKeepsNothing = true;
   const ImplicitFormula& formula;
   const std::vector<ImplicitSide>& sides;
   const ImplicitRegion& region;
   const ImplicitCondition& condition;
   const Box3& searched;
   std::span<const ImplicitNode> nodes;
+  std::array<double, 2> errors = errors_of_values();
 
+  // Most boxes hold nothing of the surface, which the formula alone tells.
+  bool is_excluded(const ParameterBox<3>& x) const {
+    const Interval value = formula.enclose(box_of(x));
+    return value.lo > errors[0] || value.hi < -errors[0];
+  }
   SystemValue<Interval, 3, 2> enclose(const ParameterBox<3>& x) const {
-    const Box3 box{{x[0].lo, x[1].lo, x[2].lo}, {x[0].hi, x[1].hi, x[2].hi}};
+    const Box3 box = box_of(x);
     // What lies next to a node is known: nothing is searched in its cube, and in one of half the size curves end.
     const bool is_at_node = in_cube(box, 1);
     if (is_at_node && in_cube(box, 0.5)) return {{Interval(kNowhere), Interval(0)}, {}};
@@ -40,14 +47,16 @@ struct InSpace {
   std::array<double, 3> extents(const ParameterBox<3>& box) const { return widths<3>(box); }
   Vec3 motion(const ParameterPoint<3>&, const ParameterPoint<3>& by) const { return {by[0], by[1], by[2]}; }
   Vec3 point(const ParameterPoint<3>& x) const { return {x[0], x[1], x[2]}; }
-  std::array<double, 2> rounding() const {
+  std::array<double, 2> rounding() const { return errors; }
+
+ private:
+  static Box3 box_of(const ParameterBox<3>& x) { return {{x[0].lo, x[1].lo, x[2].lo}, {x[0].hi, x[1].hi, x[2].hi}}; }
+  std::array<double, 2> errors_of_values() const {
     return {rounding_in(searched, [&](const Vec3& p) { return thin(formula, p).value.width(); }),
             rounding_in(searched, [&](const Vec3& p) {
               return condition.at(thin(formula, p), triple(Box3{p, p})).value.width();
             })};
   }
-
- private:
   bool in_cube(const Box3& box, double share) const {
     for (const ImplicitNode& node : nodes) {
       const Box3 cube = Box3{node.point, node.point}.inflated(share * node.reach);
