@@ -332,7 +332,7 @@ void merge_hits(std::vector<SurfaceHit>& hits, const Line& line, double size,
   size_t kept = first + 1;
   for (size_t i = first + 1; i < hits.size(); ++i) {
     const SurfaceHit hit = hits[i];
-    bool again = false;
+    bool again = false, turned = false;
     // Hits far from the one before them, as nearly all are, need no normals.
     for (size_t k = kept; k-- > first && !again;) {
       const double apart = (hit.t - hits[k].t) * length;
@@ -343,6 +343,12 @@ void merge_hits(std::vector<SurfaceHit>& hits, const Line& line, double size,
       const Surface* const one = surface(hit);
       again = apart <= reach && (a > 0) == (b > 0) &&
               (!one || one != surface(hits[k]) || are_joined(*one, hits[k], hit, reach));
+      // Beside a vertex a line may leave and enter again in between, and what it crosses next tells that it did.
+      const double surely = kSameHit * size + rounding(hit);
+      if (again && turned && (hits[kept - 1].t - hits[k].t) * length > surely &&
+          (hit.t - hits[kept - 1].t) * length > surely)
+        again = (i + 1 < hits.size() ? slope(hits[i + 1]) > 0 : false) == (a > 0);
+      if (k + 1 == kept) turned = (a > 0) != (b > 0);
     }
     if (!again) hits[kept++] = hit;
   }

@@ -5,14 +5,19 @@
 
 #include <cmath>
 
+#include "geometry/bodies/line_parity.h"
 #include "geometry/bodies/topology/entity_names.h"
 #include "geometry/body.h"
+#include "geometry/queries/rays/line_intersections.h"
 
 namespace lekalo::geometry::blend_checks {
 
 inline std::string violations_of(const Body& body) {
+  constexpr int kLines = 2000;
   std::string result;
   for (const Violation& v : body.violations()) result += v.condition + ": " + v.entity + "\n";
+  if (const int odd = line_parity(body, LineIntersector(body), kLines, 1).odd; odd > 0)
+    result += std::to_string(odd) + " lines cross it an odd number of times\n";
   return result;
 }
 

@@ -1,4 +1,5 @@
-// Whether booleans of two bodies are right: validity, identities of volume and area, rays through the CSG, membership.
+// Whether booleans of two bodies are right: validity, identities of volume and area, rays through the CSG, membership,
+// and lines that cross the result an even number of times.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "geometry/bodies/booleans/boolean.h"
+#include "geometry/bodies/line_parity.h"
 #include "geometry/queries/closest/position.h"
 #include "geometry/queries/measures/mass_properties.h"
 #include "geometry/queries/rays/line_intersections.h"
@@ -22,12 +24,14 @@ namespace lekalo::geometry {
 
 struct BooleanReport {
   std::vector<std::string> refused, wrong;
+  LineParity parity;  // of all results together
 };
 
 struct BooleanChecks {
   int rays = 65'536;
   int points = 1'000;
-  bool areas = true;  // no face of one body lies on one of the other
+  int crossing_lines = 200;  // of each result
+  bool areas = true;         // no face of one body lies on one of the other
 };
 
 namespace boolean_checks {
@@ -111,6 +115,9 @@ inline BooleanReport check_booleans(const Body& a, const Body& b, unsigned seed,
         astray += is_inside(p, lines) != expected;
       }
       if (astray > 0) wrong(fmt::format("{} points astray", astray));
+      const LineParity parity = line_parity(body, lines, checks.crossing_lines, 4 * seed + static_cast<unsigned>(k));
+      report.parity += parity;
+      if (parity.odd > 0) wrong(fmt::format("{} lines cross it an odd number of times", parity.odd));
     }
     if (!results[k] || checks.rays == 0) continue;
     boolean_checks::RayVolume by_rays;

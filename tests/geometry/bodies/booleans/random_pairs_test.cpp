@@ -20,6 +20,7 @@ int refused_of(int pairs, bool areas, Make&& make) {
   checks.points = tests::tier_count(checks.points, 40);
   checks.areas = areas;
   int refused = 0;
+  LineParity parity;
   for (int k = 0; k < pairs; ++k) {
     BodyPairs random(kSeed + kStep * static_cast<unsigned>(k));
     const BodyPair pair = make(random, k);
@@ -27,21 +28,25 @@ int refused_of(int pairs, bool areas, Make&& make) {
     for (const std::string& what : report.wrong) ADD_FAILURE() << k << ", " << pair.kind << ": " << what;
     for (const std::string& what : report.refused) std::cerr << k << ", " << pair.kind << ", refused: " << what << "\n";
     refused += report.refused.empty() ? 0 : 1;
+    parity += report.parity;
   }
+  tests::report_figure("refused", refused);
+  tests::report_figure("lines", parity.lines);
+  tests::report_figure("lines_in_band", parity.in_band);
+  tests::report_figure("aimed_lines_in_band", parity.aimed_in_band);
+  EXPECT_LE(parity.in_band, 1 + parity.lines / 100000);
   return refused;
 }
 
 TEST(BooleanPairs, GeneralPosition) {
   const int pairs = tests::tier_count(1000, tests::min_of_slow(30));
   const int refused = refused_of(pairs, true, [](BodyPairs& random, int) { return random.general(); });
-  tests::report_figure("refused", refused);
   EXPECT_LE(refused, pairs / 200);
 }
 
 TEST(BooleanPairs, EveryKindOfCoincidence) {
   const int pairs = tests::tier_count(300, tests::min_of_slow(BodyPairs::kKinds));
   const int refused = refused_of(pairs, false, [](BodyPairs& random, int k) { return random.degenerate(k); });
-  tests::report_figure("refused", refused);
   EXPECT_LE(refused, pairs / 20);
 }
 
