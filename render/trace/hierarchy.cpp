@@ -193,6 +193,7 @@ void Hierarchy::Parts::build_scene() {
   rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(flags));
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
   plain_triangles = true;
+  grouped_pieces = of_targets > 0 && std::none_of(records.begin(), records.end(), is_mesh);
   for (auto& record : records) {
     RTCGeometry geometry;
     if (record->kind == GeometryRecord::Kind::mesh) {

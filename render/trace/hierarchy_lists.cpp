@@ -1,5 +1,5 @@
-// Queries of lists of rays: packets through Embree where a hierarchy has nothing but plain triangles; double decides as
-// for single rays.
+// Queries of lists of rays: packets through Embree where a hierarchy has nothing but plain triangles, or pieces that
+// ask groups of lines; double decides as for single rays.
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +9,10 @@ namespace lekalo::render {
 
 namespace {
 
+using Query = Hierarchy::Query;
+
 // Rays that Embree takes at once.
-constexpr size_t kPacket = 8;
+constexpr size_t kPacket = PacketQuery::kMost;
 // Rays are taken through the hierarchy together if they begin this near to each other, in radii of the sphere, and
 // their directions differ by no more; else one after the other.
 constexpr float kTogether = 0.1f;
@@ -23,6 +25,8 @@ struct Packet {
   RTCRayHit8 rays;
   RTCIntersectContext context;
   bool any = false;
+  bool together = true;
+  double start[kPacket], slack[kPacket];  // as in Query
 
   Packet(const Hierarchy::Parts& p, std::span<const Ray> from) {
     RTCRay8& to = rays.ray;
@@ -33,6 +37,8 @@ struct Packet {
       const Ray& ray = from[std::min(i, from.size() - 1)];
       const Stretch s = stretch_in(p, ray, ray.t_min, ray.t_max);
       valid[i] = i < from.size() && !s.empty ? -1 : 0;
+      start[i] = s.start;
+      slack[i] = s.slack;
       to.org_x[i] = static_cast<float>(s.from.x), to.org_y[i] = static_cast<float>(s.from.y);
       to.org_z[i] = static_cast<float>(s.from.z);
       to.dir_x[i] = static_cast<float>(ray.direction.x), to.dir_y[i] = static_cast<float>(ray.direction.y);
@@ -54,8 +60,9 @@ struct Packet {
       spread = std::max(spread, std::max(turn, per_radius * shift));
     }
     any = first < kPacket;
+    together = spread <= kTogether;
     rtcInitIntersectContext(&context);
-    context.flags = spread <= kTogether ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    context.flags = together ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   }
 };
 
@@ -114,13 +121,73 @@ void meet_all(const Hierarchy::Parts& p, std::span<const Ray> rays, std::span<Hi
   }
 }
 
+// Rays through a scene of pieces, in packets where they go together; else they are asked one after the other.
+class PiecePackets {
+ public:
+  explicit PiecePackets(const Hierarchy::Parts& parts) : parts_(parts) {}
+
+  // The nearest hits of at most kPacket rays among what the scene holds, in queries; false, and nothing is done, if the
+  // rays do not go together.
+  bool nearest(std::span<const Ray> rays, Hit* hits) { return trace(rays, hits); }
+  bool occluded(std::span<const Ray> rays) { return trace(rays, nullptr); }
+  Query& query(size_t ray) { return *queries_.queries[ray]; }
+
+ private:
+  // Most that do not are told by their directions before anything is made of them.
+  static bool turn_apart(std::span<const Ray> rays) {
+    return std::any_of(rays.begin() + 1, rays.end(), [&](const Ray& ray) {
+      const Vec3 turn = glm::abs(ray.direction - rays[0].direction);
+      return std::max(std::max(turn.x, turn.y), turn.z) > 2 * kTogether;
+    });
+  }
+  bool trace(std::span<const Ray> rays, Hit* hits) {
+    if (!parts_.grouped_pieces || turn_apart(rays)) return false;
+    Packet packet(parts_, rays);
+    if (!packet.together) return false;
+    for (size_t i = 0; i < rays.size(); ++i) {
+      Query& query = queries_.queries[i].emplace(rays[i]);
+      begin(query, rays[i]);
+      query.extent = parts_.extent;
+      query.start = packet.start[i];
+      query.slack = packet.slack[i];
+      query.nearest = hits ? hits + i : nullptr;
+      queries_.lines.set(static_cast<int>(i), rays[i], query.range);
+    }
+    if (!packet.any) return true;
+    queries_.context = packet.context;
+    if (hits)
+      rtcIntersect8(packet.valid, parts_.scene, &queries_.context, &packet.rays);
+    else
+      rtcOccluded8(packet.valid, parts_.scene, &queries_.context, &packet.rays.ray);
+    return true;
+  }
+
+  const Hierarchy::Parts& parts_;
+  PacketQuery queries_;
+};
+
 }  // namespace
 
 void Hierarchy::nearest(std::span<const Ray> rays, std::span<Hit> hits) const {
   const Parts& p = *parts_;
   if (!p.plain_triangles) {
-    for (size_t i = 0; i < rays.size(); ++i)
-      if (!nearest(rays[i], hits[i])) hits[i].instance = -1;
+    PiecePackets packets(p);
+    for (size_t begin = 0; begin < rays.size(); begin += kPacket) {
+      const std::span<const Ray> some = rays.subspan(begin, std::min(kPacket, rays.size() - begin));
+      const bool together = packets.nearest(some, &hits[begin]);
+      for (size_t i = 0; i < some.size(); ++i) {
+        bool found = false;
+        if (!together) {
+          found = nearest(some[i], hits[begin + i]);
+        } else {
+          Query& query = packets.query(i);
+          query.among.scene = false;
+          if (!p.unbounded.empty()) run(query);
+          found = query.found;
+        }
+        if (!found) hits[begin + i].instance = -1;
+      }
+    }
     return;
   }
   meet_all(p, rays, hits);
@@ -136,15 +203,22 @@ void Hierarchy::nearest(std::span<const Ray> rays, std::span<Hit> hits) const {
   }
 }
 
-bool Hierarchy::gains_by_lists() const { return parts_->plain_triangles; }
+bool Hierarchy::gains_by_lists() const { return parts_->plain_triangles || parts_->grouped_pieces; }
 
 void Hierarchy::occluded(std::span<const Ray> rays, const Obstacles& among, std::span<bool> occluded) const {
   const Parts& p = *parts_;
+  const Obstacles unbounded{p.unbounded.empty() ? 0 : among.listed, false};
   if (!p.plain_triangles || !among.scene) {
-    for (size_t i = 0; i < rays.size(); ++i) occluded[i] = this->occluded(rays[i], among);
+    PiecePackets packets(p);
+    for (size_t begin = 0; begin < rays.size(); begin += kPacket) {
+      const std::span<const Ray> some = rays.subspan(begin, std::min(kPacket, rays.size() - begin));
+      const bool together = among.scene && packets.occluded(some);
+      for (size_t i = 0; i < some.size(); ++i)
+        occluded[begin + i] =
+            together ? packets.query(i).found || this->occluded(some[i], unbounded) : this->occluded(some[i], among);
+    }
     return;
   }
-  const Obstacles unbounded{p.unbounded.empty() ? 0 : among.listed, false};
   for (size_t begin = 0; begin < rays.size(); begin += kPacket) {
     const size_t end = std::min(begin + kPacket, rays.size());
     Packet packet(p, rays.subspan(begin, end - begin));

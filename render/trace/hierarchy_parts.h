@@ -4,7 +4,9 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <optional>
 
+#include "geometry/queries/rays/line_group.h"
 #include "geometry/tolerances.h"
 #include "render/trace/hierarchy.h"
 
@@ -74,6 +76,8 @@ struct Hierarchy::Parts {
   size_t pieces = 0, triangles = 0, bytes = 0;
   // The scene holds nothing but triangles that all rays see, so that Embree alone finds candidates.
   bool plain_triangles = false;
+  // The scene holds no triangles, and pieces that turn away most lines of a group at once.
+  bool grouped_pieces = false;
   RTCScene scene = nullptr;
 
   ~Parts() {
@@ -159,5 +163,16 @@ struct Hierarchy::Query {
            record.face == left_face;
   }
 };
+
+// Queries of rays that Embree takes at once.
+struct PacketQuery {
+  static constexpr size_t kMost = geometry::LineGroup::kMost;
+  RTCIntersectContext context;  // first: Embree hands its address back
+  geometry::LineGroup lines;
+  std::optional<Hierarchy::Query> queries[kMost];
+};
+
+// What Embree found for the query: nothing but triangles, which double decides against the nearest of the others.
+void accept_triangle(const Hierarchy::Parts& p, unsigned geometry, unsigned triangle, Hierarchy::Query& query);
 
 }  // namespace lekalo::render

@@ -1,5 +1,6 @@
 // Queries: what Embree's boxes propose, or a short list, is decided in double.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -125,6 +126,26 @@ void test_primitive(const void* of, unsigned primitive, Query& query) {
   for (int i = record.first_piece(primitive); i < end && !query.is_done(); ++i) test(record, i, query);
 }
 
+// The same for those of a packet's queries that are valid; `after` is called for each query that was asked.
+template <class After>
+void test_packet(const void* of, unsigned primitive, const int* valid, PacketQuery& packet, const After& after) {
+  const auto& record = *static_cast<const GeometryRecord*>(of);
+  unsigned rest = 0;
+  for (unsigned i = 0; i < PacketQuery::kMost; ++i) rest |= static_cast<unsigned>(valid[i] != 0) << i;
+  const bool filters = record.kind == GeometryRecord::Kind::target;
+  const int end = record.end_of_pieces(primitive);
+  for (int piece = record.first_piece(primitive); piece < end; ++piece) {
+    unsigned asked = filters ? rest & record.target->may_meet(piece, packet.lines) : rest;
+    for (; asked; asked &= asked - 1) {
+      const int i = std::countr_zero(asked);
+      Query& query = *packet.queries[i];
+      if (query.is_done()) continue;
+      test(record, piece, query);
+      after(i, query);
+    }
+  }
+}
+
 // All segments from a point to the places of a box. At the part s of the way they fill the box from + s (to - from).
 class Shaft {
  public:
@@ -170,6 +191,15 @@ class Listed {
 }  // namespace
 
 void intersect_callback(const RTCIntersectFunctionNArguments* args) {
+  if (args->N > 1) {
+    PacketQuery& packet = *reinterpret_cast<PacketQuery*>(args->context);
+    float* const ends = &RTCRayN_tfar(RTCRayHitN_RayN(args->rayhit, args->N), args->N, 0);
+    test_packet(args->geometryUserPtr, args->primID, args->valid, packet, [&](int i, const Query& query) {
+      packet.lines.set_end(i, query.range.hi);
+      ends[i] = std::min(ends[i], ray_end(query.range.hi - query.start + query.slack));
+    });
+    return;
+  }
   if (!args->valid[0]) return;
   Query& query = *reinterpret_cast<Query*>(args->context);
   const double before = query.range.hi;
@@ -181,6 +211,14 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
 }
 
 void occluded_callback(const RTCOccludedFunctionNArguments* args) {
+  if (args->N > 1) {
+    PacketQuery& packet = *reinterpret_cast<PacketQuery*>(args->context);
+    float* const ends = &RTCRayN_tfar(args->ray, args->N, 0);
+    test_packet(args->geometryUserPtr, args->primID, args->valid, packet, [&](int i, const Query& query) {
+      if (query.found) ends[i] = -INFINITY;
+    });
+    return;
+  }
   if (!args->valid[0]) return;
   Query& query = *reinterpret_cast<Query*>(args->context);
   test_primitive(args->geometryUserPtr, args->primID, query);
@@ -188,20 +226,34 @@ void occluded_callback(const RTCOccludedFunctionNArguments* args) {
 }
 
 void triangle_filter(const RTCFilterFunctionNArguments* args) {
-  if (!args->valid[0]) return;
-  Query& query = *reinterpret_cast<Query*>(args->context);
   const auto& record = *static_cast<const GeometryRecord*>(args->geometryUserPtr);
-  const int triangle = static_cast<int>(reinterpret_cast<const RTCHit*>(args->hit)->primID);
   const Leaf& leaf = *record.leaf;
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (!args->valid[i]) continue;
+    Query& query = args->N > 1 ? *reinterpret_cast<PacketQuery*>(args->context)->queries[i]
+                               : *reinterpret_cast<Query*>(args->context);
+    const int triangle = static_cast<int>(RTCHitN_primID(args->hit, args->N, i));
+    Hit hit;
+    const bool seen = (leaf.visible_to & query.kind) && triangle_hit(*leaf.mesh, triangle, query.line(), hit) &&
+                      hit.t >= query.range.lo && hit.t <= query.range.hi &&
+                      keeps(leaf, query.line(), hit.t, [&] { return leaf.mesh->outward(triangle); });
+    if (seen && query.all) {
+      hit.instance = query.leaf_offset + record.leaf_number;
+      query.accept(hit);
+    }
+    if (!seen || query.all) args->valid[i] = 0;
+  }
+}
+
+void accept_triangle(const Hierarchy::Parts& p, unsigned geometry, unsigned triangle, Query& query) {
+  if (geometry == RTC_INVALID_GEOMETRY_ID) return;
+  const GeometryRecord& record = *p.records[geometry];
   Hit hit;
-  const bool seen = (leaf.visible_to & query.kind) && triangle_hit(*leaf.mesh, triangle, query.line(), hit) &&
-                    hit.t >= query.range.lo && hit.t <= query.range.hi &&
-                    keeps(leaf, query.line(), hit.t, [&] { return leaf.mesh->outward(triangle); });
-  if (seen && query.all) {
+  if (triangle_hit(*record.leaf->mesh, static_cast<int>(triangle), query.line(), hit) &&
+      hit.t >= query.range.lo - query.slack) {
     hit.instance = query.leaf_offset + record.leaf_number;
     query.accept(hit);
   }
-  if (!seen || query.all) args->valid[0] = 0;
 }
 
 namespace {
@@ -237,16 +289,7 @@ __attribute__((noinline)) void run_scene(const Hierarchy::Parts& p, Query& query
   fill(ray.ray);
   ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(p.scene, &query.context, &ray);
-  if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
-    // Only triangles write the hit; double decides between the triangle and the nearest of the others.
-    const GeometryRecord& record = *p.records[ray.hit.geomID];
-    Hit hit;
-    if (triangle_hit(*record.leaf->mesh, static_cast<int>(ray.hit.primID), query.line(), hit) &&
-        hit.t >= query.range.lo - query.slack) {
-      hit.instance = query.leaf_offset + record.leaf_number;
-      query.accept(hit);
-    }
-  }
+  accept_triangle(p, ray.hit.geomID, ray.hit.primID, query);
 }
 
 // Unbounded pieces, some of which the line may pass by.

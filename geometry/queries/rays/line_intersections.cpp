@@ -194,6 +194,9 @@ class JointTarget : public LineTarget {
   void piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const override {
     target(i).piece_hits(pieces_[i].second, line, t, hits);
   }
+  unsigned may_meet(int i, const LineGroup& lines) const override {
+    return target(i).may_meet(pieces_[i].second, lines);
+  }
   bool meets_once(int i, const Vec3& direction) const override {
     return target(i).meets_once(pieces_[i].second, direction);
   }

@@ -19,6 +19,7 @@
 
 namespace lekalo::geometry {
 
+class LineGroup;
 class TrimRegion;
 
 // A surface prepared for lines. Pieces are independent of each other; hits of a line on a border shared by two pieces
@@ -30,6 +31,9 @@ class LineTarget {
   virtual Box3 piece_bounds(int piece) const = 0;
   // Adds the hits with t in the interval, in natural parameters, inside the domain (and the trims, if any).
   virtual void piece_hits(int piece, const PreparedLine& line, const Interval& t, LineHits& hits) const = 0;
+  // Of lines that are asked together those for which piece_hits must be asked, bit i for line i: the others have no
+  // hits in their ranges.
+  virtual unsigned may_meet(int /*piece*/, const LineGroup&) const { return ~0u; }
   // True if certainly no line of that direction meets the piece twice: a ray that leaves a point of the piece does not
   // come back to it.
   virtual bool meets_once(int, const Vec3&) const { return false; }

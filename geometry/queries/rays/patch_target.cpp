@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/queries/rays/line_group.h"
+
 namespace lekalo::geometry {
 
 namespace {
@@ -188,6 +190,10 @@ void PatchTarget::piece_hits(int i, const PreparedLine& line, const Interval& t,
     const bool keeps = cell.whole ? t.contains(hit.t) : acceptance_.keeps(hit, t, line.line(), *surface_);
     if (keeps) hits.add(hit);
   }
+}
+
+unsigned PatchTarget::may_meet(int i, const LineGroup& lines) const {
+  return lines.may_meet(cells_[i].cell, patches_[cells_[i].patch].center);
 }
 
 bool PatchTarget::meets_once(int i, const Vec3& direction) const {

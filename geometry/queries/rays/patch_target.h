@@ -23,6 +23,7 @@ class PatchTarget final : public LineTarget {
   std::string_view method() const override { return "Bezier pieces"; }
   Box3 piece_bounds(int i) const override;
   void piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const override;
+  unsigned may_meet(int i, const LineGroup& lines) const override;
   bool meets_once(int i, const Vec3& direction) const override;
   SurfaceJet jet_at(int i, double u, double v, const Vec3& near) const override;
   const Surface& surface() const override { return *surface_; }

@@ -17,9 +17,7 @@
 
 #include <set>
 
-#include "render/completeness/patch_entries.h"
-#include "render/completeness/shape_entries.h"
-#include "render/completeness/type_entries.h"
+#include "render/completeness/all_entries.h"
 #include "render/trace/world.h"
 #include "support/tier.h"
 #include "support/worst.h"
@@ -31,23 +29,6 @@ const Vec3 kAway = glm::normalize(Vec3(6, -7, 4));  // where subjects off the or
 constexpr double kJump = 1e-4;                      // of the size: a hit that a shift moves farther is another one
 constexpr int kAllRandom = 10000000, kAllAimed = 1000000;  // of all surfaces, in the full tier
 constexpr int kMaxTries = 10;  // for each ray along a silhouette, which only some lines find
-
-std::vector<Entry> all_entries() {
-  std::vector<Entry> entries = bezier_entries();
-  for (const auto& more : {surface_entries(), formula_entries(), composed_entries(), type_entries(), implicit_entries(),
-                           sweep_entries(), solid_entries()})
-    entries.insert(entries.end(), more.begin(), more.end());
-  return entries;
-}
-
-std::shared_ptr<const Model> model_of(const Subject& subject) {
-  auto model = std::make_shared<Model>();
-  Object object;
-  object.shape = subject.entity;
-  object.transform = subject.transform;
-  model->objects.push_back(std::move(object));
-  return model;
-}
 
 // From inside the bounds, from up to two sizes away, and now and then from a thousand or a million.
 Ray random_ray(const Subject& subject, Random& random) {
