@@ -126,7 +126,8 @@ TypeDeclaration circular_arc_type() {
         if (f.has("angle") == f.has("radius"))
           throw FieldError(f.has("angle") ? "radius" : "angle", "an arc is given by its angle or by its radius");
         if (std::abs(glm::dot(f.vec3("normal"), p[1] - p[0])) > 1e-9 * chord)
-          throw FieldError("normal", "the normal is not at right angles to the chord");
+          throw FieldError("normal", "the normal is not at right angles to the chord",
+                           "give the normal of a plane that contains both points");
         if (f.has("angle")) return arc_between(p[0], p[1], f.number("angle"), f.vec3("normal"));
         const double sine = chord / (2 * f.number("radius"));
         if (sine > 1 + 1e-12)

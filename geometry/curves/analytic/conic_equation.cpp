@@ -196,7 +196,9 @@ Frame plane_of(std::span<const Vec3> points, const char* field) {
       const Vec3 n = glm::cross(points[i] - points[0], points[j] - points[0]);
       if (glm::dot(n, n) > glm::dot(normal, normal)) normal = n;
     }
-  if (!(glm::length(normal) > kFlat * size * size)) throw FieldError(field, "the points lie on one line or coincide");
+  if (!(glm::length(normal) > kFlat * size * size))
+    throw FieldError(field, "the points lie on one line or coincide",
+                     "move one of them off the line; what is straight is a segment");
   const Frame plane = frame_about(points[0], glm::normalize(normal));
   for (const Vec3& p : points)
     if (std::abs(plane.to_local_point(p).z) > kFlat * size)

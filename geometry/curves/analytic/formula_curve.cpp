@@ -40,7 +40,8 @@ FormulaCurve::FormulaCurve(PointFormulas point_formulas, const Interval& domain,
     size = std::max(size, glm::length(p - first));
   }
   if (closed && glm::length(point(domain.hi) - first) > kClosedCurve * size)
-    throw FieldError("closed", "the curve is not closed: its ends do not meet");
+    throw FieldError("closed", "the curve is not closed: its ends do not meet",
+                     "leave 'closed' out, or give a domain of whole periods");
   closed_ = closed;
   size_ = size;
   stretches_ = smooth_stretches(point_, domain);

@@ -6,7 +6,7 @@
 namespace lekalo::geometry {
 
 Segment::Segment(const Vec3& from, const Vec3& to) : from_(from), to_(to) {
-  if (from == to) throw FieldError("to", "the ends of the segment coincide");
+  if (from == to) throw FieldError("to", "the ends of the segment coincide", "move one of them");
 }
 
 CurveJet Segment::evaluate(double t, int order) const {

@@ -140,7 +140,9 @@ CurvePtr by_formula(const CurvePtr& of, const ScalarLaw& law, const Interval& do
   double before = -kInfinity;
   for (int i = 0; i <= kTried; ++i) {
     const double w = i == kTried ? domain.hi : domain.lo + domain.width() * i / kTried, t = at(w);
-    if (!std::isfinite(t)) throw FieldError("parameter", fmt::format("the formula has no value at w = {:.6g}", w));
+    if (!std::isfinite(t))
+      throw FieldError("parameter", fmt::format("the formula has no value at w = {:.6g}", w),
+                       "give a domain in which it has");
     if (!(t > before))
       throw FieldError("parameter", fmt::format("the formula does not increase at w = {:.6g}", w),
                        "a parameter must run one way; 'reversed_curve' turns a curve round");

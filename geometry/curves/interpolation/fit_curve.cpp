@@ -144,7 +144,8 @@ void check_options(const PointSequence& data, const FitOptions& options) {
     throw FieldError("weights", fmt::format("{} weights do not fit {} points", options.weights.size(), data.size()));
   for (size_t i = 0; i < options.weights.size(); ++i)
     if (!(options.weights[i] > 0))
-      throw FieldError("weights", fmt::format("weight {} is {}, not positive", i, options.weights[i]));
+      throw FieldError("weights", fmt::format("weight {} is {}, not positive", i, options.weights[i]),
+                       "a small one lets the curve pass far from the point; leave out a point that has none");
 }
 
 struct Fit {

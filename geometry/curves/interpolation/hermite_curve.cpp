@@ -19,7 +19,8 @@ namespace lekalo::geometry {
 NurbsCurve hermite_curve(const PointSequence& data, std::span<const Vec3> tangents) {
   const int count = data.size(), last = count - 1;
   if (static_cast<int>(tangents.size()) != count)
-    throw FieldError("tangents", fmt::format("{} points need {} tangents, not {}", count, count, tangents.size()));
+    throw FieldError("tangents", fmt::format("{} points need {} tangents, not {}", count, count, tangents.size()),
+                     "tangents_at gives those of some points, and 'estimate' the others");
   const auto before = [&](int i) { return data.point(i) - data.step(i - 1) / 3 * tangents[i]; };
   const auto after = [&](int i) { return data.point(i) + data.step(i) / 3 * tangents[i]; };
   std::vector<Vec3> points;
@@ -66,10 +67,13 @@ namespace {
 
 std::vector<Vec3> unit_directions(const std::vector<Vec3>& vectors, int points) {
   if (static_cast<int>(vectors.size()) != points)
-    throw FieldError("directions", fmt::format("{} points need {} directions, not {}", points, points, vectors.size()));
+    throw FieldError("directions", fmt::format("{} points need {} directions, not {}", points, points, vectors.size()),
+                     "one for each point, in their order");
   std::vector<Vec3> result;
   for (size_t i = 0; i < vectors.size(); ++i) {
-    if (vectors[i] == Vec3(0)) throw FieldError("directions", fmt::format("the vector of point {} is zero", i));
+    if (vectors[i] == Vec3(0))
+      throw FieldError("directions", fmt::format("the vector of point {} is zero", i),
+                       "give it a direction, of any length");
     result.push_back(glm::normalize(vectors[i]));
   }
   return result;

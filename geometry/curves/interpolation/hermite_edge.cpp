@@ -34,10 +34,11 @@ TypeDeclaration hermite_edge_type() {
       .built_by([](const Fields& f) {
         std::vector<Vec3> normals = f.points("normals");
         for (size_t k = 0; k < normals.size(); ++k) {
-          if (glm::length(normals[k]) == 0) throw FieldError("normals", fmt::format("normal {} is zero", k));
+          if (glm::length(normals[k]) == 0)
+            throw FieldError("normals", fmt::format("normal {} is zero", k), "give it a direction, of any length");
           normals[k] = glm::normalize(normals[k]);
         }
-        if (f.vec3("from") == f.vec3("to")) throw FieldError("to", "it ends where it begins");
+        if (f.vec3("from") == f.vec3("to")) throw FieldError("to", "it ends where it begins", "move one of its ends");
         const auto tangents = f.text("tangents") == "arc" ? EdgeTangents::arc : EdgeTangents::projected;
         return bezier_curve(hermite_edge(f.vec3("from"), normals[0], f.vec3("to"), normals[1], tangents));
       });

@@ -83,6 +83,8 @@ NurbsCurve build(const Fields& f) {
   if (static_cast<int>(points.size()) < (closed ? 3 : 2))
     throw FieldError(f.has("of") ? "cells" : "points",
                      fmt::format("a closed curve needs at least 3 nodes, not {}", points.size()));
+  if (closed && f.has("points") && points.front() == points.back())
+    throw FieldError("points", "the last point repeats the first", "closed: true takes unrepeated points");
   const GhostNodes ghosts = f.text("ends") == "quadratic" ? GhostNodes::quadratic : GhostNodes::linear;
   const Nodes nodes{points, closed, ghosts};
   const Interval domain = f.has("of") ? f.curve("of")->domain() : Interval(0, nodes.cells());

@@ -14,6 +14,7 @@
 #include "geometry/curves/interpolation/fit_curve.h"
 #include "geometry/curves/interpolation/lagrange_curve.h"
 #include "geometry/curves/interpolation/point_parameters.h"
+#include "geometry/curves/interpolation/smoothing_spline.h"
 
 namespace lekalo::geometry {
 
@@ -143,9 +144,7 @@ NurbsCurve local_spline(const PointSequence& data, int order) {
 
 std::vector<Vec3> smoothed_points(const PointSequence& data, int order, int passes,
                                   std::span<const double> half_widths) {
-  if (!half_widths.empty() && half_widths.size() != data.points.size())
-    throw FieldError("corridor",
-                     fmt::format("{} half-widths do not fit {} points", half_widths.size(), data.points.size()));
+  if (!half_widths.empty()) check_corridor(half_widths, data.points.size());
   std::vector<Vec3> points(data.points.begin(), data.points.end());
   for (int pass = 0; pass < passes; ++pass) {
     const NurbsCurve curve = local_spline({points, data.parameters, data.closed}, order);

@@ -277,7 +277,9 @@ NurbsCurve smoothing_spline(std::span<const Vec3> points, std::span<const double
     throw FieldError("weights", fmt::format("{} weights do not fit {} points", weights.size(), count));
   Eigen::VectorXd softness = Eigen::VectorXd::Ones(count);
   for (size_t i = 0; i < weights.size(); ++i) {
-    if (!(weights[i] > 0)) throw FieldError("weights", fmt::format("weight {} is {}, not positive", i, weights[i]));
+    if (!(weights[i] > 0))
+      throw FieldError("weights", fmt::format("weight {} is {}, not positive", i, weights[i]),
+                       "a small one lets the curve pass far from the point; leave out a point that has none");
     softness[i] = 1 / weights[i];
   }
   Eigen::MatrixX3d p(count, 3);
@@ -298,14 +300,20 @@ NurbsCurve smoothing_spline(std::span<const Vec3> points, std::span<const double
   return spline_through(smooth, parameters, closed, ends);
 }
 
+void check_corridor(std::span<const double> half_widths, size_t points) {
+  if (half_widths.size() != points)
+    throw FieldError("corridor", fmt::format("{} half-widths do not fit {} points", half_widths.size(), points),
+                     "give one length, or one for each point");
+  for (size_t i = 0; i < half_widths.size(); ++i)
+    if (!(half_widths[i] >= 0))
+      throw FieldError("corridor", fmt::format("half-width {} is negative", i), "0 holds the point fast");
+}
+
 NurbsCurve corridor_spline(std::span<const Vec3> points, std::span<const double> parameters, bool closed,
                            std::span<const double> half_widths, const EndTangents& ends) {
   check_count(points);
   refuse_ends_of_closed(closed, ends);
-  if (half_widths.size() != points.size())
-    throw FieldError("corridor", fmt::format("{} half-widths do not fit {} points", half_widths.size(), points.size()));
-  for (size_t i = 0; i < half_widths.size(); ++i)
-    if (!(half_widths[i] >= 0)) throw FieldError("corridor", fmt::format("half-width {} is negative", i));
+  check_corridor(half_widths, points.size());
   const std::span<const double> t = parameters.first(points.size());
   const double period = closed ? parameters.back() - parameters.front() : 0;
   std::vector<Vec3> smooth(points.begin(), points.end());

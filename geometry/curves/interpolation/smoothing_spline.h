@@ -21,6 +21,9 @@ struct EndTangents {
 NurbsCurve smoothing_spline(std::span<const Vec3> points, std::span<const double> parameters, bool closed,
                             double stiffness, std::span<const double> weights = {}, const EndTangents& ends = {});
 
+// Throws FieldError (field corridor) unless there is one half-width, not negative, for each point.
+void check_corridor(std::span<const double> half_widths, size_t points);
+
 // The curve with the smallest integral of |r''|^2 whose coordinates at t_i are each within half_widths[i] >= 0 of those
 // of p_i: exact up to rounding. Where a straight line (closed: a point; with both end tangents: a parabola) fits, one.
 // Throws FieldError (fields corridor, points, start_tangent, end_tangent).

@@ -120,7 +120,8 @@ TypeDeclaration helix_type() {
           return std::any(transformed(std::make_shared<FormulaCurve>(curve), placed_at(f.axis("axis"))));
         } catch (const FieldError& error) {
           if (error.field != "domain") throw;
-          throw FieldError("radius", "the radius or the pitch has no finite value somewhere between s = 0 and s = 1");
+          throw FieldError("radius", "the radius or the pitch has no finite value somewhere between s = 0 and s = 1",
+                           "s goes from 0 at the beginning to 1 at the end, all turns together");
         }
       });
 }

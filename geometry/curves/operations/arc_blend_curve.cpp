@@ -183,12 +183,16 @@ ArcBlendCurve::ArcBlendCurve(std::vector<Vec3> nodes, bool closed) : closed_(clo
   const int count = static_cast<int>(nodes.size()), segments = closed ? count : count - 1;
   if (count < (closed ? 3 : 2))
     throw FieldError("points", fmt::format("{} nodes are too few: at least {} are needed", count, closed ? 3 : 2));
+  // Before arcs are asked, which coinciding nodes bend in any way.
+  for (int i = 0; i < segments; ++i)
+    if (const int next = (i + 1) % count; !(glm::length(nodes[next] - nodes[i]) > 0))
+      throw FieldError("points", fmt::format("nodes {} and {} coincide", i, next),
+                       next == 0 ? "closed: true takes unrepeated points" : "leave one of them out");
   for (int i = 0; i < segments; ++i) {
     const int next = (i + 1) % count;
     Segment s;
     s.from = nodes[i];
     s.length = glm::length(nodes[next] - nodes[i]);
-    if (!(s.length > 0)) throw FieldError("points", fmt::format("nodes {} and {} coincide", i, next), "leave one out");
     s.along = (nodes[next] - nodes[i]) / s.length;
     const auto bend = [&](int other) {
       const Vec3& a = nodes[(other + count) % count];

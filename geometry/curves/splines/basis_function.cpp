@@ -68,10 +68,18 @@ SplineFunction b_spline(const Fields& f) {
   if (index >= functions)
     throw FieldError("index", fmt::format("these knots have {} functions of degree {}", functions, degree),
                      fmt::format("the last is {}", f.integer("index") - index + functions - 1));
-  if (!std::is_sorted(knots.begin(), knots.end())) throw FieldError("knots", "knots do not decrease");
+  if (const auto lower = std::is_sorted_until(knots.begin(), knots.end()); lower != knots.end()) {
+    const auto i = lower - knots.begin();
+    throw FieldError(
+        "knots",
+        fmt::format("knots do not decrease, but knot {} is {:g} and knot {} is {:g}", i - 1, lower[-1], i, *lower),
+        "write them in ascending order");
+  }
   for (size_t j = 0; j + static_cast<size_t>(degree) + 1 < knots.size(); ++j)
     if (knots[j] == knots[j + static_cast<size_t>(degree) + 1])
-      throw FieldError("knots", fmt::format("a knot stands {} times: at most degree + 1", degree + 2));
+      throw FieldError(
+          "knots", fmt::format("the knot {:g} stands more than {} times, which is degree + 1", knots[j], degree + 1),
+          "leave one of them out, or raise the degree");
   const auto copies = [&](double knot) { return static_cast<int>(std::count(knots.begin(), knots.end(), knot)); };
   const int before = degree + 1 - copies(knots.front()), behind = degree + 1 - copies(knots.back());
   knots.insert(knots.begin(), static_cast<size_t>(before), knots.front());

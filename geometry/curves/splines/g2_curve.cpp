@@ -25,7 +25,8 @@ RationalCubic first_segment(const Fields& f) {
   std::copy_n(f.points("points").begin(), 4, cubic.points.begin());
   if (f.has("weights")) std::copy_n(f.numbers("weights").begin(), 4, cubic.weights.begin());
   if (cubic.points[2] == cubic.points[3])
-    throw FieldError("points", "the last two points coincide: there is no tangent");
+    throw FieldError("points", "the last two points coincide: there is no tangent",
+                     "move one of points[2] and points[3]");
   return cubic;
 }
 

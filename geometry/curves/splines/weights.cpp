@@ -20,7 +20,8 @@ std::vector<Vec4> homogeneous(std::span<const Vec3> points, std::span<const doub
     return result;
   }
   const auto first = std::find_if(weights.begin(), weights.end(), [](double w) { return w != 0; });
-  if (first == weights.end()) throw FieldError("weights", "all weights are zero");
+  if (first == weights.end())
+    throw FieldError("weights", "all weights are zero", "give at least one point another weight");
   const double sign = *first < 0 ? -1 : 1;
   for (size_t i = 0; i < points.size(); ++i) {
     const double w = sign * weights[i];

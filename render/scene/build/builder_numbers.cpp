@@ -69,7 +69,7 @@ std::optional<Interval> Builder::read_interval(const FieldType& type, const Valu
   if (!a || !b) return std::nullopt;
   if (!(*a < *b)) {
     diagnostics_.error(value.place, "a range must begin below its end",
-                       *a > *b ? "write the smaller number first" : "");
+                       *a > *b ? "write the smaller number first" : "write two different numbers");
     return std::nullopt;
   }
   return Interval{*a, *b};

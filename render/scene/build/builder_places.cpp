@@ -321,7 +321,7 @@ std::optional<Vec3> Builder::read_vector(const Value& value, const Counters& cou
   const double length = glm::length(*result);
   if (!(length > 0) || !std::isfinite(length)) {
     if (!unit && length == 0) return result;
-    diagnostics_.error(value.place, "this direction has no length");
+    diagnostics_.error(value.place, "this direction has no length", "for instance x, -z or [1, 0, 1]");
     return std::nullopt;
   }
   return unit ? *result / length : *result;

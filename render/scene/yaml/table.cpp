@@ -122,7 +122,9 @@ class TableReader {
     }
     const Reading<double> reading = read_number(cell.text);
     if (reading) return *reading;
-    error(line, cell, reading.slip().message, reading.slip().hint);
+    const std::string& hint = reading.slip().hint;
+    error(line, cell, reading.slip().message,
+          hint.empty() ? "below a first row of names all cells are numbers; comments begin with #" : hint);
     return 0;
   }
 
