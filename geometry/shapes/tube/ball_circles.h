@@ -2,6 +2,10 @@
 // (ball_outlines.h, tube_section.cpp).
 #pragma once
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -99,25 +103,43 @@ CurvePtr fitted_line(const Interval& range, double size, const std::function<Vec
                      const std::function<bool(double, const Vec3&)>& is_on_line, bool& complete);
 
 // Calls put(stretch, state) for the stretches of a range on which the state is the same, as seen at so many places;
-// ends of stretches by halving.
+// ends of stretches by halving. Places are asked side by side.
 template <class State, class Put>
 void each_stretch(const Interval& range, int places, const State& state, const Put& put) {
   constexpr double kInside = 1e-9;  // of the range: its ends themselves are on borders
   const auto place = [&](int k) {
     return range.lo + range.width() * std::clamp(static_cast<double>(k) / places, kInside, 1 - kInside);
   };
-  double from = range.lo;
-  auto here = state(place(0));
-  for (int k = 1; k <= places; ++k) {
-    const auto next = state(place(k));
-    if (next == here) continue;
+  struct Seen {
+    decltype(state(0.0)) value{};
+    double end = 0;  // of the stretch before, where the state is another there
+  };
+  std::vector<Seen> seen(static_cast<size_t>(places) + 1);
+  const auto each = [&](const auto& visit) {
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_for(tbb::blocked_range<int>(0, places + 1, 4), [&](const tbb::blocked_range<int>& some) {
+        for (int k = some.begin(); k < some.end(); ++k) visit(k, seen[static_cast<size_t>(k)]);
+      });
+    });
+  };
+  each([&](int k, Seen& here) { here.value = state(place(k)); });
+  each([&](int k, Seen& here) {
+    if (k == 0) return;
+    const auto before = seen[static_cast<size_t>(k) - 1].value;
+    if (here.value == before) return;
     double lo = place(k - 1), hi = place(k);
     for (double middle = 0.5 * (lo + hi); lo < middle && middle < hi; middle = 0.5 * (lo + hi))
-      (state(middle) == here ? lo : hi) = middle;
-    if (hi - from > kSameOnBalls * range.width()) put(Interval{from, hi}, here);
-    from = hi, here = next;
+      (state(middle) == before ? lo : hi) = middle;
+    here.end = hi;
+  });
+  double from = range.lo;
+  for (size_t k = 1; k < seen.size(); ++k) {
+    const auto before = seen[k - 1].value;
+    if (seen[k].value == before) continue;
+    if (seen[k].end - from > kSameOnBalls * range.width()) put(Interval{from, seen[k].end}, before);
+    from = seen[k].end;
   }
-  if (range.hi - from > kSameOnBalls * range.width()) put(Interval{from, range.hi}, here);
+  if (range.hi - from > kSameOnBalls * range.width()) put(Interval{from, range.hi}, seen.back().value);
 }
 
 }  // namespace lekalo::geometry
