@@ -51,4 +51,25 @@ Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, c
   return simple ? simple : image;
 }
 
+CurvePtr contour_approximation_within(const CurvePtr& curve, double length) {
+  if (!takes_long(*curve)) return curve;
+  const CurvePtr simple = polynomial_approximation(*curve, length, true);
+  return simple ? simple : curve;
+}
+
+Curve2Ptr contour_approximation_within(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image,
+                                       double length) {
+  if (!takes_long(*curve)) return image;
+  constexpr int kPlaces = 8;
+  double fastest = 0;
+  for (int k = 0; k <= kPlaces; ++k) {
+    const Vec3 uv = image->point(curve->domain().lo + curve->domain().width() * k / kPlaces);
+    const SurfaceJet jet = surface.evaluate(uv.x, uv.y, 1);
+    fastest = std::max({fastest, glm::length(jet.du()), glm::length(jet.dv())});
+  }
+  if (!(fastest > 0)) return image;
+  const Curve2Ptr simple = polynomial_approximation(CurvePart(image, curve->domain()), length / fastest, true);
+  return simple ? simple : image;
+}
+
 }  // namespace lekalo::geometry

@@ -11,9 +11,16 @@ namespace lekalo::geometry {
 // the size that is near enough where `finest` cannot be had, as beside a place where a contour crosses itself.
 CurvePtr contour_approximation(const CurvePtr& curve, double coarsest = 1e-13, double finest = 1e-13);
 
+// The same to a length, in as few parts as serve: of a small contour rounding may be more than a share of its size.
+CurvePtr contour_approximation_within(const CurvePtr& curve, double length);
+
 // The image of such a contour on a surface, likewise, in shares of the surface's domain; itself where that is
 // unbounded.
 Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image,
                                 double coarsest = 1e-13, double finest = 1e-13);
+
+// The same to what moves the surface's point by a length at most, as far as a few places tell.
+Curve2Ptr contour_approximation_within(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image,
+                                       double length);
 
 }  // namespace lekalo::geometry

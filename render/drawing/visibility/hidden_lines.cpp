@@ -78,24 +78,36 @@ class Drawing {
       const bool is_border = work.fills && (strokes_[k].outlines || strokes_[k].borders);
       return (strokes_[k].drawn || is_border) && !curves_[k]->cells().empty();
     };
-    each_line([&](size_t k) {
-      if (is_asked(k)) own_outlines_of(static_cast<int>(k));
-    });
-    std::vector<std::vector<double>> events(strokes_.size());
+    // Lines along one another ask for one another's.
+    std::vector<char> tells_outlines(strokes_.size(), 0);
     for (size_t k = 0; k < strokes_.size(); ++k) {
-      if (progress_) progress_(0.5 * static_cast<double>(k) / strokes_.size());
-      if (is_asked(k)) events[k] = events_of(static_cast<int>(k), crossings);
+      if (!is_asked(k)) continue;
+      tells_outlines[k] = 1;
+      for (const int coincident : coincident_[k]) tells_outlines[static_cast<size_t>(coincident)] = 1;
     }
+    each_line([&](size_t k) {
+      if (tells_outlines[k]) add_own_outlines(strokes_[k], own_outlines_[k]);
+    });
+    std::mutex telling;
+    size_t done = 0;
+    const auto tell = [&] {
+      if (!progress_) return;
+      const std::lock_guard lock(telling);
+      progress_(0.5 * static_cast<double>(++done) / strokes_.size());
+    };
+    std::vector<std::vector<double>> events(strokes_.size());
+    std::vector<int> crossings_seen(strokes_.size(), 0);
+    each_line([&](size_t k) {
+      if (is_asked(k)) events[k] = events_of(static_cast<int>(k), crossings, crossings_seen[k]);
+      tell();
+    });
+    for (const int seen : crossings_seen) result_.statistics.crossings += seen;
     result_.statistics.seconds_of_crossings = seconds_since(begin);
     begin = std::chrono::steady_clock::now();
     std::vector<std::vector<VisiblePiece>> pieces(strokes_.size());
-    std::mutex telling;
-    size_t done = 0;
     each_line([&](size_t k) {
       if (is_asked(k)) pieces[k] = pieces_of(static_cast<int>(k), std::move(events[k]));
-      if (!progress_) return;
-      const std::lock_guard lock(telling);
-      progress_(0.5 + 0.5 * static_cast<double>(++done) / strokes_.size());
+      tell();
     });
     result_.statistics.seconds_of_rays = seconds_since(begin);
     for (size_t k = 0; k < strokes_.size(); ++k) {
@@ -126,15 +138,21 @@ class Drawing {
 
   // Contours that solve their equations at every point are asked too often for that. Silhouettes of fitted copies are
   // no better than the copies.
-  static void simplify(Stroke& stroke) {
+  void simplify(Stroke& stroke) const {
     const bool is_of_copy =
         stroke.kind == "silhouette" && std::any_of(stroke.supporting_surfaces.begin(), stroke.supporting_surfaces.end(),
                                                    [](const auto& one) { return one.surface->is_composed(); });
     const double tolerance = is_of_copy ? kNearContour : kExactContour;
-    for (Stroke::SupportingSurface& supporting_surface : stroke.supporting_surfaces)
-      supporting_surface.image = contour_approximation(stroke.curve, *supporting_surface.surface,
-                                                       supporting_surface.image, tolerance, tolerance);
-    stroke.curve = contour_approximation(stroke.curve, tolerance, tolerance);
+    // Rounding leaves less of a small contour: then what is near enough in the scene.
+    const double length = kExactContour * world_.radius();
+    for (auto& [surface, image] : stroke.supporting_surfaces) {
+      Curve2Ptr simple = contour_approximation(stroke.curve, *surface, image, tolerance, tolerance);
+      if (simple == image) simple = contour_approximation_within(stroke.curve, *surface, image, length);
+      image = std::move(simple);
+    }
+    CurvePtr simple = contour_approximation(stroke.curve, tolerance, tolerance);
+    if (simple == stroke.curve) simple = contour_approximation_within(stroke.curve, length);
+    stroke.curve = std::move(simple);
   }
 
   // The border at which two surfaces join is one of each: one is enough to hide what lies behind it. And what is drawn
@@ -178,10 +196,10 @@ class Drawing {
 
   double depth_at(int line, double t) const { return camera_.project(curves_[line]->tangent(t).origin).depth; }
 
-  std::vector<double> events_of(int line, const PictureCrossings& crossings) {
+  std::vector<double> events_of(int line, const PictureCrossings& crossings, int& crossings_seen) {
     const Stroke& stroke = strokes_[line];
     std::vector<double> events = stroke.cusps;
-    const std::vector<double>& own = own_outlines_of(line);
+    const std::vector<double>& own = own_outlines_[line];
     events.insert(events.end(), own.begin(), own.end());
     add_outlines_of_coincident_lines(line, events);
     add_self_piercings(stroke, events);
@@ -211,7 +229,7 @@ class Drawing {
       if (outline == of || depth_at(outline, crossing.t_other) < depth_at(of, crossing.t) + near) events.push_back(t);
     };
     crossings.with(*curves_[line], is_coincident, [&](int other, const PictureCrossing& crossing) {
-      ++result_.statistics.crossings;
+      ++crossings_seen;
       add_crossing(line, outline_of_[other], crossing, crossing.t);
     });
     // A twin's with itself are the line's too.
@@ -255,12 +273,6 @@ class Drawing {
       add_silhouette_crossings(*stroke.curve, *supporting_surface.surface, *supporting_surface.image, view, events);
   }
 
-  // Twins ask for one another's, when all lines that are asked for have theirs.
-  const std::vector<double>& own_outlines_of(int line) {
-    if (!own_outlines_[line]) add_own_outlines(strokes_[line], own_outlines_[line].emplace());
-    return *own_outlines_[line];
-  }
-
   // The place of a twin at t, on the line itself.
   std::optional<double> same_place(int line, int coincident, double t) const {
     const Stroke &stroke = strokes_[line], &other = strokes_[coincident];
@@ -280,7 +292,7 @@ class Drawing {
   // Where it goes round surfaces that join its own along it.
   void add_outlines_of_coincident_lines(int line, std::vector<double>& events) {
     for (const int coincident : coincident_[line])
-      for (const double turn : own_outlines_of(coincident))
+      for (const double turn : own_outlines_[coincident])
         if (const auto t = same_place(line, coincident, turn)) events.push_back(*t);
   }
 
@@ -444,8 +456,8 @@ class Drawing {
   std::vector<std::shared_ptr<const ProjectedCurve>> curves_;
   std::vector<int> self_intersections_;  // lines of this kind
   std::vector<int> outline_of_;
-  std::vector<std::vector<int>> coincident_;                      // lines along the whole of which another lies
-  std::vector<std::optional<std::vector<double>>> own_outlines_;  // of lines, where they have been asked for
+  std::vector<std::vector<int>> coincident_;       // lines along the whole of which another lies
+  std::vector<std::vector<double>> own_outlines_;  // where lines go round their surfaces
   QuantitativeInvisibility layers_;
   std::optional<Piercings> piercings_;
   VisibleLines result_;

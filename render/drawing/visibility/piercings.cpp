@@ -52,7 +52,8 @@ Piercings::Piercings(const World& world, const std::vector<Stroke>& strokes) : w
       known.push_back(surfaces_.size());
       const SurfacePtr placed = transformed(supporting_surface.surface, stroke.to_world);
       boxes.push_back(bounds(*placed));
-      surfaces_.push_back({placed, supporting_surface.surface, stroke.to_world, stroke.object, nullptr});
+      surfaces_.push_back({placed, supporting_surface.surface, stroke.to_world, stroke.object, nullptr,
+                           std::make_unique<std::mutex>()});
     }
   tree_ = BoxTree(boxes);
   PlacedObjects(world.model().objects, is_pierced_shape)
@@ -95,11 +96,14 @@ void Piercings::add(const Stroke& stroke, const std::vector<const Stroke*>& alon
         std::any_of(along.begin(), along.end(), [&](const Stroke* one) { return is_supporting_surface(other, *one); }))
       return;
     if (!cells) cells.emplace(*curve);
-    if (!other.cells) other.cells = std::make_unique<SurfaceCells>(*other.surface);
     const double near = kNear * world_.radius();
-    if (add_crossing_candidates(*cells, *other.cells, near, kFewTouches, kManyPairs, places) ||
-        lies_on(*curve, other) || add_crossing_candidates(*cells, *other.cells, near, kManyPairs, kManyPairs, places))
-      return;
+    {
+      const std::lock_guard lock(*other.guard);
+      if (!other.cells) other.cells = std::make_unique<SurfaceCells>(*other.surface);
+      if (add_crossing_candidates(*cells, *other.cells, near, kFewTouches, kManyPairs, places) ||
+          lies_on(*curve, other) || add_crossing_candidates(*cells, *other.cells, near, kManyPairs, kManyPairs, places))
+        return;
+    }
     for (const SurfaceIntersection& intersection : intersect(*curve, *other.surface).points)
       places.push_back(intersection.t);
   });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "geometry/queries/intersections/crossing_candidates.h"
@@ -18,7 +19,7 @@ class Piercings {
   Piercings(const World& world, const std::vector<Stroke>& strokes);
 
   // Adds the parameters at which a line passes through one. `along`: lines that lie along it, whose surfaces count as
-  // its own.
+  // its own. May be asked of many lines at once.
   void add(const Stroke& stroke, const std::vector<const Stroke*>& along, std::vector<double>& places);
 
  private:
@@ -27,6 +28,7 @@ class Piercings {
     geometry::Affine to_world;
     int object;
     std::unique_ptr<geometry::SurfaceCells> cells;  // when they are first asked for
+    std::unique_ptr<std::mutex> guard;              // of the cells
   };
   // Whose boundary is not made of parametric surfaces.
   struct PlacedShape {
