@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "geometry/curves/operations/smooth_pieces.h"
 #include "geometry/queries/contours/contour_touching.h"
@@ -147,9 +148,10 @@ class FunctionEquations final : public ContourEquations<2> {
   SystemValue<Interval, 2, 1> enclose(const ParameterBox<2>& box, std::array<KnownEnclosures, 2>*) const override {
     const SurfaceEnclosure boxes = surface_->enclose({box[0], box[1]}, 1 + tangents());
     SystemValue<Interval, 2, 1> result;
+    AtPoles<SurfaceEnclosure> known;
     for (int i = 0; i < 2; ++i) {
-      const Jet<Interval, 1> f =
-          apply(function_.slope_ranges, boxes, towards<Interval>(box[0], i == 0), towards<Interval>(box[1], i == 1));
+      const Jet<Interval, 1> f = apply(function_.slope_ranges, boxes, towards<Interval>(box[0], i == 0),
+                                       towards<Interval>(box[1], i == 1), known);
       result.value[0] = f.c[0];
       result.derivative[0][i] = f.c[1];
     }
@@ -193,13 +195,15 @@ class FunctionEquations final : public ContourEquations<2> {
   ContourSeries<double, kMaxContourOrder, 2> series(
       const std::array<Jet<double, kMaxContourOrder>, 2>& x) const override {
     const SurfaceJet jet = evaluate_within(*surface_, piece_, x[0].c[0], x[1].c[0], kMaxSurfaceOrder);
-    return {{apply(function_.series, jet, x[0], x[1])}, along_surface(jet, x[0], x[1])};
+    AtPoles<SurfaceJet> known;
+    return {{apply(function_.series, jet, x[0], x[1], known)}, along_surface(jet, x[0], x[1])};
   }
   ContourSeries<Interval, 2, 2> series(const std::array<Jet<Interval, 2>, 2>& x) const override {
     const Rectangle box{x[0].c[0], x[1].c[0]};
     const SurfaceEnclosure boxes =
         function_.needs_tangents ? enclosure_to_third(*surface_, piece_, box) : surface_->enclose(box, 2);
-    return {{apply(function_.series_ranges, boxes, x[0], x[1])}, along_surface(boxes, x[0], x[1])};
+    AtPoles<SurfaceEnclosure> known;
+    return {{apply(function_.series_ranges, boxes, x[0], x[1], known)}, along_surface(boxes, x[0], x[1])};
   }
   int highest_order() const override { return kMaxContourOrder - tangents(); }
   std::unique_ptr<TouchingEquations<2>> touching(std::shared_ptr<const ContourEquations<2>> self) const override {
@@ -218,9 +222,10 @@ class FunctionEquations final : public ContourEquations<2> {
  private:
   SystemValue<double, 2, 1> value_of(const SurfaceJet& jet, const ParameterPoint<2>& at) const {
     SystemValue<double, 2, 1> result;
+    AtPoles<SurfaceJet> known;
     for (int i = 0; i < 2; ++i) {
       const Jet<double, 1> f =
-          apply(function_.slopes, jet, towards<double>(at[0], i == 0), towards<double>(at[1], i == 1));
+          apply(function_.slopes, jet, towards<double>(at[0], i == 0), towards<double>(at[1], i == 1), known);
       result.value[0] = f.c[0];
       result.derivative[0][i] = f.c[1];
     }
@@ -232,6 +237,11 @@ class FunctionEquations final : public ContourEquations<2> {
     bool of_u, upper;
     double at;
   };
+
+  // The derivatives of the tangents that vanish at each pole, divided by the distance from it: at one place, for all
+  // directions that are asked for.
+  template <class Derivatives>
+  using AtPoles = std::array<std::optional<Derivatives>, 4>;
 
   int tangents() const { return function_.needs_tangents ? 1 : 0; }
 
@@ -253,19 +263,24 @@ class FunctionEquations final : public ContourEquations<2> {
   }
 
   template <class S, int K, class Derivatives>
-  Jet<S, K> apply(const SurfaceFunction::Of<Jet<S, K>>& f, const Derivatives& d, const Jet<S, K>& u,
-                  const Jet<S, K>& v) const {
+  Jet<S, K> apply(const SurfaceFunction::Of<Jet<S, K>>& f, const Derivatives& d, const Jet<S, K>& u, const Jet<S, K>& v,
+                  AtPoles<Derivatives>& known) const {
     Tangents<Jet<S, K>> at;
     at.s = along_surface(d, u, v);
     if (function_.needs_tangents) at.s_u = along_surface(d, u, v, 1, 0), at.s_v = along_surface(d, u, v, 0, 1);
-    for (const Pole& pole : poles_) {
+    for (size_t k = 0; k < poles_.size(); ++k) {
+      const Pole& pole = poles_[k];
+      const auto quotient = [&] {
+        if (!known[k]) known[k] = quotient_at<K>(pole, u.c[0], v.c[0]);
+        return along_surface(*known[k], u, v);
+      };
       // Along the edge the other parameter moves nothing.
       Triple<Jet<S, K>>& vanishing = pole.of_u ? at.s_v : at.s_u;
       Jet<S, K> height = pole.of_u ? u - S(pole.at) : v - S(pole.at);
       if (is_near(pole, height.c[0]))
-        vanishing = quotient_at(pole, d, u, v);
+        vanishing = quotient();
       else
-        vanishing = narrowed(vanishing / height, pole, d, u, v);
+        vanishing = narrowed(vanishing / height, quotient);
       if (pole.upper) vanishing = -vanishing;
     }
     return f(at.s, at.s_u, at.s_v);
@@ -274,10 +289,9 @@ class FunctionEquations final : public ContourEquations<2> {
   bool is_near(const Pole& pole, double height) const { return std::abs(height) < kNearPole * width(pole); }
   static bool is_near(const Pole&, const Interval& height) { return mignitude(height) < 0.5 * magnitude(height); }
   // A quotient of ranges is wide in its derivatives: by the square of the distance from the pole.
-  template <int K>
-  Triple<Jet<Interval, K>> narrowed(Triple<Jet<Interval, K>> quotient, const Pole& pole, const SurfaceEnclosure& d,
-                                    const Jet<Interval, K>& u, const Jet<Interval, K>& v) const {
-    const Triple<Jet<Interval, K>> other = quotient_at(pole, d, u, v);
+  template <int K, class Quotient>
+  static Triple<Jet<Interval, K>> narrowed(Triple<Jet<Interval, K>> quotient, const Quotient& at_pole) {
+    const Triple<Jet<Interval, K>> other = at_pole();
     for (int k = 0; k <= K; ++k) {
       quotient.x.c[k] = intersect(quotient.x.c[k], other.x.c[k]);
       quotient.y.c[k] = intersect(quotient.y.c[k], other.y.c[k]);
@@ -285,9 +299,8 @@ class FunctionEquations final : public ContourEquations<2> {
     }
     return quotient;
   }
-  template <int K>
-  static Triple<Jet<double, K>> narrowed(const Triple<Jet<double, K>>& quotient, const Pole&, const SurfaceJet&,
-                                         const Jet<double, K>&, const Jet<double, K>&) {
+  template <int K, class Quotient>
+  static Triple<Jet<double, K>> narrowed(const Triple<Jet<double, K>>& quotient, const Quotient&) {
     return quotient;
   }
   double width(const Pole& pole) const { return pole.of_u ? piece_.u.width() : piece_.v.width(); }
@@ -295,9 +308,8 @@ class FunctionEquations final : public ContourEquations<2> {
   // q = s_u / (v - v0) = integral over x in [0, 1] of s_uv(u, v0 + x (v - v0)), for an edge v = v0 that is a pole:
   //   q_(u^i v^j) = integral of x^j s_(u^(i+1) v^(j+1)), which lies in the range of that derivative by j + 1.
   template <int K>
-  Triple<Jet<Interval, K>> quotient_at(const Pole& pole, const SurfaceEnclosure&, const Jet<Interval, K>& u,
-                                       const Jet<Interval, K>& v) const {
-    Rectangle box{u.c[0], v.c[0]};
+  SurfaceEnclosure quotient_at(const Pole& pole, const Interval& u, const Interval& v) const {
+    Rectangle box{u, v};
     (pole.of_u ? box.u : box.v) = hull(pole.of_u ? box.u : box.v, Interval(pole.at));
     const SurfaceEnclosure s = surface_->enclose(box, K + 2);
     SurfaceEnclosure q;
@@ -307,15 +319,14 @@ class FunctionEquations final : public ContourEquations<2> {
         const double by = 1.0 / ((pole.of_u ? i : j) + 1);
         q.values[SurfaceJet::index(i, j)] = {by * of.lo, by * of.hi};
       }
-    return along_surface(q, u, v);
+    return q;
   }
   // The same from the Taylor polynomial at the edge; near enough to it that what is left out is rounding.
   template <int K>
-  Triple<Jet<double, K>> quotient_at(const Pole& pole, const SurfaceJet&, const Jet<double, K>& u,
-                                     const Jet<double, K>& v) const {
-    const SurfaceJet s = evaluate_within(*surface_, piece_, pole.of_u ? pole.at : u.c[0], pole.of_u ? v.c[0] : pole.at,
-                                         kMaxSurfaceOrder);
-    const double height = pole.of_u ? u.c[0] - pole.at : v.c[0] - pole.at;
+  SurfaceJet quotient_at(const Pole& pole, double u, double v) const {
+    const SurfaceJet s =
+        evaluate_within(*surface_, piece_, pole.of_u ? pole.at : u, pole.of_u ? v : pole.at, kMaxSurfaceOrder);
+    const double height = pole.of_u ? u - pole.at : v - pole.at;
     SurfaceJet q(kMaxSurfaceOrder);
     for (int i = 0; i + 1 < kMaxSurfaceOrder; ++i)
       for (int j = 0; i + j + 2 <= kMaxSurfaceOrder; ++j) {
@@ -326,7 +337,7 @@ class FunctionEquations final : public ContourEquations<2> {
           q.d(i, j) += factor * power / (across + k + 1) * (pole.of_u ? s.d(i + 1 + k, j + 1) : s.d(i + 1, j + 1 + k));
         }
       }
-    return along_surface(q, u, v);
+    return q;
   }
 
   const SurfacePtr surface_;

@@ -76,7 +76,8 @@ double largest_derivative(int k) {
 struct Patch {
   Rectangle domain;
   Net net;
-  double distance = 0;  // of the surface
+  double distance = 0;                     // of the surface
+  std::array<double, kDerivatives> apart;  // how far its derivatives are from the surface's
   std::array<Box3, kDerivatives> whole;
 };
 
@@ -108,7 +109,7 @@ void include_ranges(const Patch& patch, const Net& net, const Rectangle& box, in
       Box3 hull;
       for (int a = 0; a <= kDegree - i; ++a)
         for (int b = 0; b <= kDegree - j; ++b) hull.include(both[a * kPoints + b]);
-      const Vec3 apart(derivative_distance(patch, i, j));
+      const Vec3 apart(patch.apart[SurfaceJet::index(i, j)]);
       boxes[SurfaceJet::index(i, j)].include(Box3{scale * hull.lo - apart, scale * hull.hi + apart});
     }
   }
@@ -176,7 +177,7 @@ void narrow(const Patch& patch, const Rectangle& box, int order, int known, std:
     for (int j = 0; j <= n; ++j) {
       const int i = n - j;
       const Vec3 reach = 0.5 * box.u.width() * largest(i + 1, j) + 0.5 * box.v.width() * largest(i, j + 1) +
-                         Vec3(derivative_distance(patch, i, j));
+                         Vec3(patch.apart[SurfaceJet::index(i, j)]);
       Box3& range = ranges[SurfaceJet::index(i, j)];
       range = {glm::max(range.lo, middle.d(i, j) - reach), glm::min(range.hi, middle.d(i, j) + reach)};
     }
@@ -193,6 +194,9 @@ class FittedSurface final : public Surface {
       Patch patch;
       patch.domain = piece.domain;
       patch.distance = fitted.distances[k];
+      for (int i = 0; i <= kMaxSurfaceOrder; ++i)
+        for (int j = 0; i + j <= kMaxSurfaceOrder; ++j)
+          patch.apart[SurfaceJet::index(i, j)] = derivative_distance(patch, i, j);
       for (size_t i = 0; i < piece.points.size(); ++i) patch.net[i] = Vec3(piece.points[i]);
       include_ranges(patch, patch.net, patch.domain, kMaxSurfaceOrder, patch.whole.data());
       boxes.push_back(box_of(patch.domain));
