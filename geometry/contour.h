@@ -56,7 +56,7 @@ struct Contours {
   // False where something is left out: surfaces that nearly touch along a curve or nearly coincide, that touch in a way
   // that is not followed (through poles, to a higher order), a plane seen edge-on, a branch that stops inside.
   bool complete = true;
-  // The branches are conics and straight lines, found without a search
+  // The branches are conics, straight lines and hippopedes, found without a search
   // (geometry/queries/contours/analytic/closed_contours.h).
   bool closed_form = false;
 };

@@ -19,12 +19,13 @@ objects:
   - { shape: rim, transform: { translate: [10, 0, 0] } }
 """
 
-VIVIANI = """
+# They touch in a point of the curve in which they meet.
+TOUCHING_TORI = """
 lekalo: 1
 geometry:
-  ball: { type: ball, radius: 1 }
-  tool: { type: cylinder_body, center: [0.5, 0, -2], radius: 0.5, height: 4 }
-  window: { type: difference, of: ball, minus: tool }
+  ring: { type: torus_body, major_radius: 1, minor_radius: 0.3 }
+  tool: { type: torus_body, center: [2, 0, 0], major_radius: 1, minor_radius: 0.3 }
+  window: { type: difference, of: ring, minus: tool }
 """
 
 
@@ -111,12 +112,12 @@ class Step(ProgramTest):
         self.assertFalse((self.folder / "y.step").exists())
 
     def test_why_a_solid_has_no_boundary(self):
-        self.write("viviani.yaml", VIVIANI)
-        _, errors = self.run_program("export", "viviani.yaml", "window", "-o", "z.step", code=2)
+        self.write("tori.yaml", TOUCHING_TORI)
+        _, errors = self.run_program("export", "tori.yaml", "window", "-o", "z.step", code=2)
         self.assertIn("'window' is left out: its boundary is not made: ", errors)
-        _, errors = self.run_program("measure", "viviani.yaml", "window.edge.0", code=2)
+        _, errors = self.run_program("measure", "tori.yaml", "window.edge.0", code=2)
         self.assertIn("'window.edge.0': the boundary of 'window' is not made: ", errors)
-        _, errors = self.run_program("evaluate", "viviani.yaml", "window", "--uv", "0,0", code=2)
+        _, errors = self.run_program("evaluate", "tori.yaml", "window", "--uv", "0,0", code=2)
         self.assertIn("'window' has no faces: its boundary is not made: ", errors)
 
 

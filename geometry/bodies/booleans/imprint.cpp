@@ -486,7 +486,7 @@ class Imprinting {
       const Interval domain = curve->domain();
       std::vector<Cut> cuts;
       for (size_t k = 0; k < imprint_.points.size(); ++k)
-        if (const auto t = near.place_of(imprint_.points[k], tolerance_)) cuts.push_back({*t, static_cast<int>(k)});
+        for (const double t : near.places_of(imprint_.points[k], tolerance_)) cuts.push_back({t, static_cast<int>(k)});
       const std::array<Curve2Ptr, 2> images{
           contour_approximation(contour.curve, *face(0, f).surface, contour.images[0], kNearSingular),
           contour_approximation(contour.curve, *face(1, g).surface, contour.images[1], kNearSingular)};

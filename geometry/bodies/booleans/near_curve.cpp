@@ -34,11 +34,10 @@ NearCurve::NearCurve(CurvePtr curve) : curve_(std::move(curve)) {
   box_ = box_.inflated(sag_);
 }
 
-std::optional<double> NearCurve::place_of(const Vec3& p, double near) const {
-  if (!box_.inflated(near).contains(p)) return std::nullopt;
+template <class Visit>
+void NearCurve::near_places(const Vec3& p, double near, Visit&& visit) const {
+  if (!box_.inflated(near).contains(p)) return;
   const Interval domain = curve_->domain();
-  std::optional<double> best;
-  double nearest = near;
   for (size_t k = 0; k + 1 < corners_.size(); ++k) {
     const Vec3 chord = corners_[k + 1] - corners_[k];
     const double square = glm::dot(chord, chord);
@@ -62,11 +61,37 @@ std::optional<double> NearCurve::place_of(const Vec3& p, double near) const {
     for (const double joint : {around.lo, around.hi})
       if (std::abs(t - joint) <= kJoint * domain.width()) t = joint;
     const double apart = glm::length(curve_->point(t) - p);
-    if (apart > nearest) continue;
-    nearest = apart;
-    best = t;
+    if (apart <= near) visit(t, apart);
   }
+}
+
+std::optional<double> NearCurve::place_of(const Vec3& p, double near) const {
+  std::optional<double> best;
+  double nearest = near;
+  near_places(p, near, [&](double t, double apart) {
+    if (apart <= nearest) nearest = apart, best = t;
+  });
   return best;
+}
+
+std::vector<double> NearCurve::places_of(const Vec3& p, double near) const {
+  struct Place {
+    double t, apart;
+  };
+  std::vector<Place> found;
+  near_places(p, near, [&](double t, double apart) { found.push_back({t, apart}); });
+  std::sort(found.begin(), found.end(), [](const Place& a, const Place& b) { return a.t < b.t; });
+  const double one_passage = length_ > 0 ? 4 * near / length_ * curve_->domain().width() : kInfinity;
+  std::vector<double> result;
+  double last = 0, nearest = 0;
+  for (const Place& place : found) {
+    if (result.empty() || place.t - last > one_passage)
+      result.push_back(place.t), nearest = place.apart;
+    else if (place.apart <= nearest)
+      result.back() = place.t, nearest = place.apart;
+    last = place.t;
+  }
+  return result;
 }
 
 }  // namespace lekalo::geometry

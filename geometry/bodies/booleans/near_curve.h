@@ -17,8 +17,15 @@ class NearCurve {
   Vec3 point(double t) const { return curve_->point(t); }
   // The parameter of the nearest point, where that is not farther than `near`.
   std::optional<double> place_of(const Vec3& p, double near) const;
+  // Every passage of the curve within `near` of the point: of a closed curve both ends, of one that crosses itself
+  // there each time. Passages are farther apart, along the curve, than they are wide.
+  std::vector<double> places_of(const Vec3& p, double near) const;
 
  private:
+  // Calls visit(t, distance) for the nearest point of each part of the curve that comes so near.
+  template <class Visit>
+  void near_places(const Vec3& p, double near, Visit&& visit) const;
+
   CurvePtr curve_;
   std::vector<double> ends_;
   std::vector<Vec3> corners_;

@@ -224,11 +224,15 @@ class Validation {
     return Vec2(coedge.image->point(coedge.forward == last ? domain.hi : domain.lo));
   }
 
-  // Images of vertices in the loops of one face: those of one vertex in one place are equal but for rounding.
+  // Images of vertices in the loops of one face: those of one point, which may be several vertices, in one place are
+  // equal but for rounding.
   using Corners = std::vector<std::pair<int, Vec2>>;
-  static Vec2 corner(int vertex, const Vec2& at, double near, Corners& known) {
+  Vec2 corner(int vertex, const Vec2& at, double near, Corners& known) const {
+    const auto are_one = [&](int a, int b) {
+      return a == b || glm::length(body_.vertices[a].point - body_.vertices[b].point) <= kRounding * size_;
+    };
     for (const auto& [of, place] : known)
-      if (of == vertex && glm::length(place - at) <= near) return place;
+      if (are_one(of, vertex) && glm::length(place - at) <= near) return place;
     known.emplace_back(vertex, at);
     return at;
   }

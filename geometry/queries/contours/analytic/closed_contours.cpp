@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/queries/contours/analytic/hippopede.h"
 #include "geometry/queries/contours/analytic/profile_sections.h"
 #include "geometry/queries/contours/analytic/torus_silhouette.h"
 #include "geometry/queries/quadrics/canonical_surface.h"
@@ -343,6 +344,19 @@ std::optional<Contours> profile_form(const SurfacePtr& surface, const CuttingPla
   return found;
 }
 
+// Of surfaces that meet in no conics.
+std::optional<Contours> hippopede_form(const Pair& pair) {
+  auto found = pair.b ? hippopede(pair.a, *pair.b, pair.scale.size)
+                      : hippopede_section(pair.a, pair.middle + pair.plane.height * pair.plane.normal,
+                                          pair.plane.normal, pair.scale.size);
+  if (!found) return std::nullopt;
+  std::vector<SurfacePtr> surfaces{pair.a.surface};
+  if (pair.b) surfaces.push_back(pair.b->surface);
+  for (Contour& branch : found->branches)
+    if (!lies_on(branch, surfaces, pair.plane, pair.middle, pair.scale.size)) return std::nullopt;
+  return found;
+}
+
 void swap_surfaces(Contours& found) {
   for (Contour& branch : found.branches) std::swap(branch.images[0], branch.images[1]);
   for (ContourPoint& point : found.points)
@@ -363,6 +377,7 @@ std::optional<Contours> closed_intersection(const SurfacePtr& a, const SurfacePt
   if (of_a && of_b) {
     const Pair pair{swap ? *of_b : *of_a, swap ? *of_a : *of_b, {}, box.center(), {box.diameter(), tolerance}};
     found = closed_form(pair);
+    if (!found) found = hippopede_form(pair);
   } else {
     const CanonicalSurface& plane = swap ? *of_a : *of_b;
     found = profile_form(swap ? b : a, {plane.origin, plane.normal(), plane.surface}, box);
@@ -377,7 +392,9 @@ std::optional<Contours> closed_section(const SurfacePtr& surface, const Vec3& or
   const auto first = canonical(surface);
   if (!first) return profile_form(surface, {origin, normal, nullptr}, box);
   const PlaneEquation plane{normal, glm::dot(normal, origin - box.center())};
-  return closed_form({*first, std::nullopt, plane, box.center(), {box.diameter(), tolerance}});
+  const Pair pair{*first, std::nullopt, plane, box.center(), {box.diameter(), tolerance}};
+  auto found = closed_form(pair);
+  return found ? found : hippopede_form(pair);
 }
 
 // Where (a p + b) . i = 0 for the line of sight i; of an eye, i = p - e, with the surface's own p . a p + 2 b . p + c =

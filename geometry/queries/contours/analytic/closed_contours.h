@@ -8,7 +8,8 @@
 //   of quadrics: sections by the polar plane of the eye, or of the line of sight; silhouettes of rings
 //   (geometry/queries/contours/analytic/torus_silhouette.h); tori with planes across or through the axis and those that
 //   touch them twice (Villarceau), with planes, spheres, cylinders, cones and tori about the same axis, with the
-//   spheres that fill their tube.
+//   spheres that fill their tube; spheres with cylinders that touch them from within, tori with
+//   planes along the axis that touch the inner equator (geometry/queries/contours/analytic/hippopede.h).
 //
 // Nothing is returned for other pairs, and wherever rounding or the tolerance would have to decide: nearly tangent,
 // nearly coincident, borders that touch, singular points at ends. There the search of
