@@ -81,7 +81,9 @@ TEST_P(Together, ListsOfRaysFindWhatTheirRaysFindAlone) {
         const bool met = world.nearest(rays[i], alone);
         hits += met;
         ASSERT_EQ(met, together[i].instance >= 0) << "of ray " << i << " of " << rays.size();
-        if (met) ASSERT_TRUE(same_bits(alone, together[i])) << fmt::format("{:a} and {:a}", alone.t, together[i].t);
+        if (met) {
+          ASSERT_TRUE(same_bits(alone, together[i])) << fmt::format("{:a} and {:a}", alone.t, together[i].t);
+        }
         ASSERT_EQ(world.occluded(rays[i]), hidden[i]);
       }
       done += static_cast<int>(rays.size());
