@@ -37,7 +37,7 @@ class Blending {
       rims_[beyond.rim] = edge;
       for (const bool at_end : {false, true}) surgery_.fixed_vertices.push_back(vertex_of(body, {beyond.rim, at_end}));
     }
-    for (const BlendEdge& edge : edges) surgery_.blends.push_back({edge, band_of(edge), {}, {}, {}});
+    for (const BlendEdge& edge : edges) surgery_.blends.push_back({edge, band_of(edge), {}, {}, {}, {}});
   }
 
   // The first place where a blend does not find room on a face.
@@ -163,6 +163,8 @@ class Blending {
 
   void retrace_loops() {
     for (size_t b = 0; b < surgery_.blends.size(); ++b) borders_.push_back(borders_of(surgery_.blends[b]));
+    for (const auto& [after, pieces] : straddling_)
+      for (const auto& [place, use] : pieces) surgery_.corners[after].push_back(use);
     for (size_t f = 0; f < body_.faces.size(); ++f) retrace(static_cast<int>(f));
   }
 
@@ -245,7 +247,7 @@ class Blending {
         throw BlendError(blend.edge.edge, "nothing is left of its blend between those at its ends");
       const Beyond* beyond = found != beyonds_.end() && found->second.side == side ? &found->second : nullptr;
       if (!beyond)
-        result[side] = {border_piece(blend, side, from, to, blend.vertices[0][side], blend.vertices[1][side])};
+        result[side] = whole_border(blend, side);
       else if (beyond->kind == BeyondKind::overflow)
         result[side] = overflowing(blend, *beyond, from, to);
       else if (beyond->kind == BeyondKind::edge)
@@ -255,6 +257,50 @@ class Blending {
       if (beyond && beyond->kind == BeyondKind::roll) result[side][0].face = beyond->face;
     }
     return result;
+  }
+
+  // In one piece, but for what crosses a smooth edge at an end.
+  std::vector<Border> whole_border(const EdgeBlend& blend, int side) {
+    std::array<double, 2> s{blend.s[0][side], blend.s[1][side]};
+    std::array<int, 2> vertices{blend.vertices[0][side], blend.vertices[1][side]};
+    std::array<std::vector<Border>, 2> beyond;
+    for (int end = 0; end < 2; ++end) {
+      const auto& straddle = blend.straddles[end][side];
+      if (!straddle) continue;
+      const double to = straddle->is_whole ? s[1 - end] : straddle->s;
+      const int vertex = straddle->is_whole ? vertices[1 - end] : straddle->vertex;
+      Border piece = end == 0 ? border_piece(blend, side, s[0], to, vertices[0], vertex)
+                              : border_piece(blend, side, to, s[1], vertex, vertices[1]);
+      straddling_[straddle->after][straddle->place] = on_other_face(blend, piece, side, *straddle);
+      piece.face = -1;
+      if (straddle->is_whole) return {piece};
+      beyond[end].push_back(std::move(piece));
+      s[end] = to, vertices[end] = vertex;
+    }
+    std::vector<Border> pieces = std::move(beyond[0]);
+    pieces.push_back(border_piece(blend, side, s[0], s[1], vertices[0], vertices[1]));
+    pieces.insert(pieces.end(), beyond[1].begin(), beyond[1].end());
+    return pieces;
+  }
+
+  Body::Use on_other_face(const EdgeBlend& blend, const Border& piece, int side, const Straddle& straddle) const {
+    const SurfacePtr& surface = surgery_.draft.faces[straddle.face].surface;
+    const CurvePtr& curve = surgery_.draft.edges[piece.use.edge].curve;
+    const Vec2 near = foot_place_anywhere(surface, curve->point(curve->domain().middle()), straddle.near);
+    const Curve2Ptr image = image_on(surface, curve, near);
+    if (!image || !ends_on(*surface, *image, *curve))
+      throw BlendError(blend.edge.edge, "its blend does not end on the smooth edge beside it");
+    return {piece.use.edge, side == 1, image};
+  }
+
+  // An image may be that of the nearest places of a surface that does not hold the curve.
+  bool ends_on(const Surface& surface, const Curve& image, const Curve& curve) const {
+    const Interval t = curve.domain();
+    for (const double at : {t.lo, t.middle(), t.hi}) {
+      const Vec2 uv(image.point(at));
+      if (glm::length(surface.point(uv.x, uv.y) - curve.point(at)) > kTogether * surgery_.size) return false;
+    }
+    return true;
   }
 
   Border border_piece(const EdgeBlend& blend, int side, double from, double to, int start, int end) {
@@ -307,7 +353,8 @@ class Blending {
             lo = std::min(lo, s), hi = std::max(hi, s);
           }
         }
-      const bool is_cut = borders_[b][0].size() + borders_[b][1].size() > 2;
+      const auto beyond = beyonds_.find(blend.edge.edge);
+      const bool is_cut = beyond != beyonds_.end() && beyond->second.kind == BeyondKind::overflow;
       const bool is_straight = !is_cut && std::abs(lo - blend.s[0][0]) + std::abs(hi - blend.s[1][0]) +
                                                   std::abs(lo - blend.s[0][1]) + std::abs(hi - blend.s[1][1]) <=
                                               1e-12 * (hi - lo);
@@ -367,6 +414,7 @@ class Blending {
   Beyonds beyonds_;
   Surgery surgery_;
   std::map<int, CurvePtr> whole_;
+  std::map<HalfEdge, std::map<int, Body::Use>> straddling_;  // by their place
   std::map<int, int> rims_;                                  // the blended edge beside each
   std::vector<std::array<std::vector<Border>, 2>> borders_;  // right, left: in the direction of the edge
 };

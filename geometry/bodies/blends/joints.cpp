@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "geometry/bodies/blends/band_meetings.h"
 #include "geometry/bodies/blends/supports.h"
 #include "geometry/bodies/blends/surgery.h"
 #include "geometry/bodies/primitives/construct.h"
@@ -17,7 +18,75 @@ namespace {
 
 constexpr double kTogether = 1e-9;  // of the size
 
-// The smooth edges between two half-edges of a fan end where the borders on either side of them do.
+// One of the borders that follow each other from a corner on, seen from there.
+struct BorderPart {
+  HalfEdge half;
+  int side;
+};
+
+// The blended edge that continues another at its other end.
+std::optional<BorderPart> next_part(Surgery& surgery, const BorderPart& part) {
+  const HalfEdge far{part.half.edge, !part.half.at_end};
+  const Fan fan = fan_from(surgery.body, far);
+  const size_t next = fan.edges.empty() ? 0 : continuation(surgery.body, fan);
+  if (next == 0 || !surgery.is_blended(fan.edges[next])) return std::nullopt;
+  const HalfEdge& half = fan.edges[next];
+  return BorderPart{half, part.side == side_after(far) ? side_before(half) : side_after(half)};
+}
+
+// The borders up to where one crosses a smooth edge: the last one, at `met`.
+struct WayToEdge {
+  std::vector<BorderPart> parts;
+  BandOnCurve met;
+};
+std::optional<WayToEdge> way_to(Surgery& surgery, const BorderPart& first, const HalfEdge& smooth, double near) {
+  constexpr size_t kMostParts = 4;
+  const Curve& curve = *surgery.body.edges[smooth.edge].curve;
+  WayToEdge way;
+  for (std::optional<BorderPart> part = first; part && way.parts.size() < kMostParts;
+       part = next_part(surgery, *part)) {
+    way.parts.push_back(*part);
+    const BlendBand& band = surgery.blend(part->half).band;
+    const double from = band.ends()[part->half.at_end], to = band.ends()[!part->half.at_end];
+    const auto met = border_on_curve(band, part->side, curve, from, near);
+    if (!met) continue;
+    const double share = (met->s - from) / (to - from);
+    if (share > 0 && share < 1) return WayToEdge{way.parts, *met};
+  }
+  return std::nullopt;
+}
+
+// The smooth edge i between two half-edges leaves the corner obliquely: `foot` is its place nearest to the section's
+// point, and the border on that side of the section crosses it. Its faces must be of one surface: there is no other
+// band beyond.
+bool cross_smooth_edge(Surgery& surgery, const Fan& fan, size_t from, size_t i, size_t to, const Vec3& point,
+                       double foot) {
+  const HalfEdge &smooth = fan.edges[i], &leaving = fan.edges[from], &arriving = fan.edges[to];
+  const BlendBand& band = surgery.blend(leaving).band;
+  const Vec3 along = band.at(band.ends()[leaving.at_end], side_after(leaving)).ds * (leaving.at_end ? -1.0 : 1.0);
+  const bool leaves = glm::dot(surgery.body.edges[smooth.edge].curve->point(foot) - point, along) > 0;
+  const auto way = leaves ? way_to(surgery, {leaving, side_after(leaving)}, smooth, foot)
+                          : way_to(surgery, {arriving, side_before(arriving)}, smooth, foot);
+  if (!way) return false;
+  const HalfEdge& beside = leaves ? arriving : leaving;
+  Straddle straddle;
+  straddle.after = leaves ? arriving : smooth;
+  straddle.face = leaves ? fan.faces[i] : fan.faces[from];
+  straddle.near = place_on(surgery.body, straddle.face, beside, parameter_of(surgery.body, beside));
+  const int vertex = surgery.vertex_at(way->met.point);
+  for (size_t k = 0; k < way->parts.size(); ++k) {
+    const auto& [half, side] = way->parts[k];
+    straddle.is_whole = k + 1 < way->parts.size();
+    straddle.s = way->met.s, straddle.vertex = vertex;
+    straddle.place = leaves ? static_cast<int>(k) : -static_cast<int>(k);
+    surgery.blend(half).straddles[half.at_end][side] = straddle;
+  }
+  surgery.trim(smooth, way->met.t, vertex, leaving.edge);
+  return true;
+}
+
+// The smooth edges between two half-edges of a fan end where the borders on either side of them do, or where one of
+// these crosses them.
 void trim_between(Surgery& surgery, const Fan& fan, size_t from, size_t to, const Vec3& point, int vertex) {
   for (size_t i = fan.next(from); i != to; i = fan.next(i)) {
     const HalfEdge half = fan.edges[i];
@@ -26,9 +95,10 @@ void trim_between(Surgery& surgery, const Fan& fan, size_t from, size_t to, cons
     double best = kInfinity, t = 0;
     for (const auto& foot : projector.foot_points(point).foot_points)
       if (foot.distance < best) best = foot.distance, t = foot.t;
-    if (!(best <= kTogether * surgery.size))
+    if (best <= kTogether * surgery.size)
+      surgery.trim(half, t, vertex, fan.edges[from].edge);
+    else if (fan.next(fan.next(from)) != to || !cross_smooth_edge(surgery, fan, from, i, to, point, t))
       throw BlendError(fan.edges[from].edge, "its blend does not end on the smooth edge beside it");
-    surgery.trim(half, t, vertex, fan.edges[from].edge);
   }
 }
 

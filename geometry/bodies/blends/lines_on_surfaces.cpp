@@ -75,7 +75,7 @@ LineOnSurface line_between(const SurfacePtr& surface, const Vec2& from, const Ve
 Curve2Ptr image_on(const SurfacePtr& surface, const CurvePtr& curve, const Vec2& near) {
   if (const auto* plane = dynamic_cast<const Plane*>(surface.get())) return image_in(plane->frame(), curve);
   constexpr int kSteps = 64;
-  constexpr double kAgree = 1e-13, kRounding = 4e-15;
+  constexpr double kAgree = 1e-13, kRounding = 4e-15, kSliver = 1e-7;
   const Interval t = curve->domain();
   std::vector<Vec2> nodes(kSteps + 1, near);
   const auto at_node = [&](int k) { return t.lo + t.width() * k / kSteps; };
@@ -89,6 +89,10 @@ Curve2Ptr image_on(const SurfacePtr& surface, const CurvePtr& curve, const Vec2&
       largest = std::max({largest, std::abs(place->x), std::abs(place->y)});
     }
   const Vec2 size = glm::abs(nodes.front() - nodes[kSteps / 2]) + glm::abs(nodes.back() - nodes[kSteps / 2]);
+  // Points are rounded too, which moves their places by as much as the surface is slow there.
+  const SurfaceJet jet = surface->evaluate(nodes[kSteps / 2].x, nodes[kSteps / 2].y, 1);
+  const double slow = std::min(glm::length(jet.du()), glm::length(jet.dv()));
+  if (slow > 0) largest = std::max(largest, glm::length(jet.point()) / slow);
   const double tolerance = std::max(kAgree * std::max(size.x, size.y), kRounding * largest);
   const auto place = [&](double at) {
     const double x = (at - t.lo) / t.width() * kSteps;
@@ -96,8 +100,14 @@ Curve2Ptr image_on(const SurfacePtr& surface, const CurvePtr& curve, const Vec2&
     const auto found = foot_place(*surface, curve->point(at), glm::mix(nodes[k], nodes[k + 1], x - k));
     return found ? Vec3(*found, 0) : Vec3(std::nan(""));
   };
-  std::vector<Interval> pieces;
-  for (const CurvePiece& piece : curve->pieces()) pieces.push_back(intersect(piece.domain, t));
+  // A joint as near to an end as rounding puts it is that end.
+  std::vector<Interval> pieces{t};
+  for (const CurvePiece& piece : curve->pieces()) {
+    const double joint = piece.domain.lo;
+    if (!(joint > pieces.back().lo + kSliver * t.width() && joint < t.hi - kSliver * t.width())) continue;
+    pieces.back().hi = joint;
+    pieces.emplace_back(joint, t.hi);
+  }
   return polynomial_approximation(place, pieces, tolerance);
 }
 

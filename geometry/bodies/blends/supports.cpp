@@ -105,9 +105,10 @@ SurfacePtr support_of(const SurfacePtr& surface) {
   if (SurfacePtr cylinder = cylinder_of(surface)) return cylinder;
   const Rectangle domain = surface->domain();
   const Periods periods = surface->periods();
+  const Rectangle wide{wider(domain.u, periods.u), wider(domain.v, periods.v)};
   try {
-    if (SurfacePtr more = continued_by_law(surface, {wider(domain.u, periods.u), wider(domain.v, periods.v)}))
-      return more;
+    if (SurfacePtr more = continued_by_law(surface, wide)) return more;
+    if (surface->bounded()) return extended_to(surface, wide);
   } catch (const std::invalid_argument&) {
     // Beyond a pole there is nothing.
   }

@@ -8,8 +8,8 @@
 namespace lekalo::geometry {
 
 // A surface of which that of a face is a part, with parameters of its own: the unbounded plane where it is flat, the
-// unbounded cylinder where it is round; else its law over a rectangle three times as wide where it has one; the surface
-// itself where nothing is known.
+// unbounded cylinder where it is round; else its law over a rectangle three times as wide, or where it has none its
+// tangents at the border; the surface itself where there is nothing beyond it.
 SurfacePtr support_of(const SurfacePtr& surface);
 
 // The parameters of the point of a surface at p, near to a place or, where nothing is found there, anywhere. Throws

@@ -12,12 +12,25 @@
 
 namespace lekalo::geometry {
 
+// A border that crosses a smooth edge of its face near to one of its ends: the piece beyond, or all of it, belongs to
+// the face on the other side, where it follows what arrives along a half-edge.
+struct Straddle {
+  bool is_whole = false;  // else it crosses at s, in the vertex
+  double s = 0;
+  int vertex = -1;
+  HalfEdge after;
+  int place = 0;  // of several that follow there
+  int face = -1;
+  Vec2 near{0};  // a place of the face beside the piece
+};
+
 struct EdgeBlend {
   BlendEdge edge;
   BlendBand band;
   // At the edge's start and end, on its right and left side: where the border ends, and the new vertex there.
   std::array<std::array<double, 2>, 2> s{};
   std::array<std::array<int, 2>, 2> vertices{{{-1, -1}, {-1, -1}}};
+  std::array<std::array<std::optional<Straddle>, 2>, 2> straddles;
   // From the right to the left side, with images on the band.
   std::array<std::vector<Body::Use>, 2> sections;
 };

@@ -3,6 +3,8 @@
 
 #include <random>
 
+#include "geometry/bodies/booleans/boolean.h"
+#include "geometry/bodies/primitives/construct.h"
 #include "geometry/bodies/primitives/primitives.h"
 #include "geometry/bodies/topology/selection.h"
 #include "geometry/queries/measures/mass_properties.h"
@@ -185,6 +187,38 @@ TEST(Blending, ConvexAndConcaveEdgesTogether) {
   EXPECT_EQ(violations_of(result), "");
   EXPECT_EQ(result.euler_characteristic(), 2);
   expect_smooth_borders(result);
+}
+
+// Holes that leave a face aslant, and cylinders that meet: the seam of a wall leaves the rim obliquely. Whatever its
+// place, the fillet is the same.
+TEST(Blending, TheSeamMayBeAnywhere) {
+  const Body block = box(Frame{}, {3, 3, 2});
+  const Vec3 through(1.5, 1.5, 1), along = glm::normalize(Vec3(0.5, 0.2, 1));
+  for (const bool is_branch : {false, true}) {
+    double first = 0;
+    for (int k = 0; k < 5; ++k) {
+      const Frame about = frame_about(through, along);
+      const Vec3 x = std::cos(1.3 * k) * about.x + std::sin(1.3 * k) * about.y;
+      const Body rod = cylinder_body(frame_from(is_branch ? through : through - 3.0 * along, along, x), 0.4, 6);
+      const Body whole =
+          is_branch ? boolean(BooleanOperation::unite, block, rod) : boolean(BooleanOperation::subtract, block, rod);
+      BlendRequest request = ball_of(0.1);
+      for (size_t e = 0; e < whole.edges.size(); ++e) {
+        const Vec3 p = whole.edges[e].curve->point(whole.edges[e].curve->domain().middle());
+        const Vec3 off = p - through - glm::dot(p - through, along) * along;
+        if (whole.edges[e].kind == EdgeKind::regular && std::abs(p.z - 2) < 1e-9 && glm::length(off) < 0.4 + 1e-9)
+          request.edges.push_back(static_cast<int>(e));
+      }
+      ASSERT_FALSE(request.edges.empty());
+      const Body result = blended(whole, {request});
+      EXPECT_EQ(violations_of(result), "");
+      expect_smooth_borders(result);
+      const double volume = measure(result).volume.value;
+      if (k == 0) first = volume;
+      EXPECT_NEAR(volume, first, 1e-10 * first) << k;
+      EXPECT_EQ(volume > measure(whole).volume.value, is_branch);
+    }
+  }
 }
 
 TEST(Blending, RefusesWithTheEdge) {
