@@ -78,6 +78,61 @@ class LocalBodies(ProgramTest):
         self.refused(one % "face: x_min", "the face 'x_min' lies beside none of the edges")
         self.assert_near(self.volume(one % "face: x_max"), 32 - 0.5 * 0.3 * 0.2 * 4, 1e-9)
 
+    def test_fillets_at_their_limits(self):
+        """Closed forms of what is built; what is refused names the edge and the largest radius."""
+        spandrel = 1 - math.pi / 4
+        block = "  block: { type: box, size: [4, 4, 3] }\n"
+        one = "type: fillet_body, of: block, fillets: { edges: { between: [z_max, y_min] }, radius: %s }"
+        two = "type: fillet_body, of: block, fillets: { edges: { of_face: z_max, parallel: x }, radius: %s }"
+        # What is left of a face is 0.01 wide; a radius that takes all of it.
+        self.assert_near(self.volume(two % 1.995, block), 48 - 2 * spandrel * 1.995**2 * 4, 1e-9)
+        self.refused(two % 2, "between block.y_max and block.z_max: nothing is left of", "the largest radius that fits is 1.9999", more=block)
+        # A fillet beside a fillet, up to where they touch.
+        first = block + f"  first: {{ {one % 2} }}\n"
+        beside = "type: fillet_body, of: first, fillets: { edges: { between: [block.z_max, block.y_max] }, radius: %s }"
+        self.assert_near(self.volume(beside % 1.99, first), 48 - spandrel * (4 + 1.99**2) * 4, 1e-9)
+        self.refused(beside % 2, "nothing is left of edge", "the largest radius that fits is 1.9999", more=first)
+        # Its border runs along an edge: the foot of a step as wide as the radius.
+        step = ("  block: { type: extrusion_body, along: [0, 0, 2], of: { type: polyline, closed: true, "
+                "points: [[0, 0], [3, 0], [3, 1], [1, 1], [1, 2], [0, 2]] } }\n")
+        foot = "type: fillet_body, of: block, fillets: { edges: { between: [side.2, side.3] }, radius: %s }"
+        self.assert_near(self.volume(foot % 0.99, step), 8 + spandrel * 0.99**2 * 2, 1e-9)
+        self.refused(foot % 1, "between block.side.2 and block.side.3: nothing is left of edge", "the largest radius that fits is 0.99999", more=step)
+        # Its border touches the rim of a hole, crosses it, and has the hole beyond it.
+        plate = "  block: { type: difference, of: { type: box, size: [4, 4, 1] }, minus: { type: cylinder_body, radius: 0.5, height: 3, center: [3.2, 2, -1] } }\n"
+        side = "type: fillet_body, of: block, fillets: { edges: { between: [z_max, x_max] }, radius: %s }"
+        self.assert_near(self.volume(side % 0.299, plate), 16 - math.pi / 4 - spandrel * 0.299**2 * 4, 1e-9)
+        for radius in 0.3, 0.5, 0.95:
+            self.refused(side % radius, "x_max and", "z_max", "the largest radius that fits is 0.29999", more=plate)
+
+    def test_fillets_between_nearly_tangent_faces(self):
+        """Between faces that turn by 2 a the spandrel is r^2 (tan a - a)."""
+        for rise in 0.1, 0.01, 1e-3, 1e-5:
+            roof = ("  block: { type: extrusion_body, along: z, of: { type: polyline, closed: true, "
+                    f"points: [[0, 0], [2, 0], [2, 1], [1, {1 + rise!r}], [0, 1]] }} }}\n")
+            ridge = "{ edges: { between: [side.2, side.3] }, %s: 0.5 }"
+            self.assert_near(self.volume(f"type: fillet_body, of: block, fillets: {ridge % 'radius'}", roof), 2 + rise - 0.25 * (rise - math.atan(rise)), 1e-12)
+            angle = 2 * math.atan(rise)
+            self.assert_near(self.volume(f"type: chamfer_body, of: block, chamfers: {ridge % 'lengths'}", roof), 2 + rise - 0.125 * math.sin(angle), 1e-12)
+        self.refused(f"type: fillet_body, of: block, fillets: {ridge % 'radius'}", "no sharp edge is between 'side.2' and 'side.3'", more=roof.replace("1.00001", "1.0000001"))
+
+    def test_rims_of_lofts(self):
+        """Of circles: as of a cone. Of squares: the corners of the rim are mitred, and all edges have balls in the corners."""
+        both = ("  loft: { type: loft_body, of: [{ type: circle, radius: 1 }, { type: circle, radius: 0.6, center: [0, 0, 1] }] }\n"
+                "  cone: { type: cone_body, radius: 1, top_radius: 0.6, height: 1 }\n")
+        for end in "start", "end":
+            loft, cone = (self.volume(f"type: fillet_body, of: {of}, fillets: {{ edges: {{ of_face: {end} }}, radius: 0.2 }}", both) for of in ("loft", "cone"))
+            self.assert_near(loft, cone, 1e-12)
+        square = ("  loft: { type: loft_body, of: [{ type: rectangle, size: [2, 2] }, { type: rectangle, size: [2, 2], center: [0, 0, 1] }] }\n")
+        spandrel, third = (1 - math.pi / 4) * 0.04, (5 / 3 - math.pi / 2) * 0.008
+        self.assert_near(self.volume("type: fillet_body, of: loft, fillets: { edges: { of_face: end }, radius: 0.2 }", square), 4 - 8 * spandrel + 4 * third, 1e-12)
+        # Twisted sides, which have no law.
+        bent = ("  loft: { type: loft_body, of: [{ type: polyline, closed: true, points: [[0, 0, 0], [3, 0, 0], [0, 2, 0]] }, { type: polyline, closed: true, "
+                "points: [[0.2, 0.1, 1], [2.5, 0.4, 1], [0.3, 1.5, 1]] }, { type: polyline, closed: true, points: [[0, 0, 2], [3, 0, 2], [0, 2, 2]] }] }\n")
+        sharp = self.volume("like: loft", bent)
+        for edges in "{ of_face: end }", "{ between: [side, side] }", "{}":
+            self.assertLess(self.volume(f"type: fillet_body, of: loft, fillets: {{ edges: {edges}, radius: 0.05 }}", bent), sharp)
+
     def test_fillet_beside_a_hole(self):
         plate = ("{ type: extrusion_body, along: [0, 0, 2], of: [{ type: rectangle, size: [6, 4] }, { type: circle, radius: 0.2, center: [0, 1.5] }] }")
         self.refused(f"type: fillet_body, of: {plate}, fillets: {{ edges: {{ between: [side.2, end] }}, radius: 0.5 }}", "edge",

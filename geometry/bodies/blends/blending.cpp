@@ -186,7 +186,7 @@ class Blending {
     }
     if (changed) face.trimmed = true;
     if (opened && !chain_loops(surgery_.draft, face))
-      throw BlendError(surgery_.blends.front().edge.edge, "its border touches others of the face", false);
+      throw BlendError(surgery_.blends.front().edge.edge, "its border touches others of the face");
   }
 
   // What a use of an old edge has become; `opened`: the loop has a gap there, or another beginning.
