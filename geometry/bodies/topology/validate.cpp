@@ -9,6 +9,7 @@
 #include "geometry/bodies/topology/entity_names.h"
 #include "geometry/body.h"
 #include "geometry/queries/measures/mass_properties.h"
+#include "geometry/queries/rays/line_intersections.h"
 #include "geometry/tessellation/triangulation.h"
 
 namespace lekalo::geometry {
@@ -355,16 +356,33 @@ class Validation {
   }
 
   void check_shells() {
-    double total = 0;
-    bool all_closed = true;
-    for (size_t i = 0; i < body_.shells.size(); ++i) {
-      const Shell& shell = body_.shells[i];
-      all_closed = all_closed && shell.closed;
-      if (shell.closed) total = std::max(total, signed_volume(body_, static_cast<int>(i), 1e-3));
-    }
+    const bool all_closed =
+        std::all_of(body_.shells.begin(), body_.shells.end(), [](const Shell& shell) { return shell.closed; });
     if (body_.shells.empty()) report("a body has a shell", "body");
-    if (all_closed && !body_.shells.empty() && !(total > 0))
+    if (all_closed && !body_.shells.empty() && !looks_outward())
       report("the faces of the outer shell look outward", "body");
+  }
+
+  // By the first and last face along a line; by the volume, which takes long, where lines are not to be trusted.
+  bool looks_outward() const {
+    if (found_.empty()) {
+      constexpr size_t kMaxEdges = 8;
+      constexpr double kSteep = 0.1;
+      const LineIntersector lines(body_);
+      for (size_t e = 0; e < std::min(kMaxEdges, body_.edges.size()); ++e)
+        for (const Vec3& way : {Vec3(0.48, 0.6, 0.64), Vec3(-0.64, 0.48, 0.6), Vec3(0.6, -0.64, 0.48)}) {
+          const Interval t = body_.edges[e].curve->domain();
+          const std::vector<SurfaceHit> hits = lines.all_hits({body_.edges[e].curve->point(t.middle()), way});
+          if (hits.size() < 2) continue;
+          const auto slope = [&](const SurfaceHit& hit) { return glm::dot(body_.normal(hit.face, hit.u, hit.v), way); };
+          const double first = slope(hits.front()), last = slope(hits.back());
+          if (std::min(std::abs(first), std::abs(last)) > kSteep && (first > 0) != (last > 0)) return last > 0;
+        }
+    }
+    double volume = 0;
+    for (size_t i = 0; i < body_.shells.size(); ++i)
+      volume = std::max(volume, signed_volume(body_, static_cast<int>(i), 1e-3));
+    return volume > 0;
   }
 
   const Body& body_;
