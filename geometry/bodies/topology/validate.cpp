@@ -367,13 +367,13 @@ class Validation {
   bool looks_outward() const {
     if (found_.empty()) {
       constexpr size_t kMaxEdges = 8;
-      constexpr double kSteep = 0.1;
+      constexpr double kSteep = 0.1, kThrough = 1e-3;  // of the size: a line that only grazes an edge tells nothing
       const LineIntersector lines(body_);
       for (size_t e = 0; e < std::min(kMaxEdges, body_.edges.size()); ++e)
         for (const Vec3& way : {Vec3(0.48, 0.6, 0.64), Vec3(-0.64, 0.48, 0.6), Vec3(0.6, -0.64, 0.48)}) {
           const Interval t = body_.edges[e].curve->domain();
           const std::vector<SurfaceHit> hits = lines.all_hits({body_.edges[e].curve->point(t.middle()), way});
-          if (hits.size() < 2) continue;
+          if (hits.size() < 2 || hits.back().t - hits.front().t < kThrough * size_) continue;
           const auto slope = [&](const SurfaceHit& hit) { return glm::dot(body_.normal(hit.face, hit.u, hit.v), way); };
           const double first = slope(hits.front()), last = slope(hits.back());
           if (std::min(std::abs(first), std::abs(last)) > kSteep && (first > 0) != (last > 0)) return last > 0;
