@@ -21,6 +21,7 @@
 #include <limits>
 
 #include "geometry/formula.h"
+#include "geometry/grid_points.h"
 #include "geometry/numerics/halving.h"
 #include "geometry/surface_series.h"
 
@@ -205,7 +206,7 @@ SurfaceEnclosure mean_values(const Formula& formula, const Rectangle& box, int o
   if (order == 1) return mean_values<2, 1>(formula, box, 1);
   if (order == 2 && known > 2) return mean_values<kMaxSurfaceOrder, 2>(formula, box, 2);
   if (order == 2) return mean_values<2, 1>(formula, box, 1);  // with the second derivatives as they are
-  return mean_values<kMaxSurfaceOrder, kMaxSurfaceOrder>(formula, box, kMaxSurfaceOrder - 1);
+  return mean_values<kMaxSurfaceOrder, kMaxSurfaceOrder - 1>(formula, box, kMaxSurfaceOrder - 1);
 }
 
 }  // namespace detail
@@ -312,9 +313,10 @@ std::optional<NurbsSurfaceForm> form_of_pieces(const std::vector<SurfacePiece>& 
                                                const std::vector<double>& lines_u, const std::vector<double>& lines_v);
 
 // Formula: a struct with `template <class T> Triple<T> operator()(const T& u, const T& v) const`, and
-// `rational_pieces(breaks_u, breaks_v)`, u outer, where it may know patches (none: it does not).
+// `rational_pieces(breaks_u, breaks_v)`, u outer, where it may know patches (none: it does not), and
+// `points_over_grid(u, v)` where a grid costs less than its points.
 template <class Formula>
-class ComposedSurface final : public Surface {
+class ComposedSurface final : public Surface, public GridPoints {
  public:
   ComposedSurface(Formula formula, SurfaceProperties properties)
       : formula_(std::move(formula)), properties_(std::move(properties)) {
@@ -336,6 +338,7 @@ class ComposedSurface final : public Surface {
     return evaluate_surface_formula(formula_, detail::inside(u, properties_.domain.u, properties_.periods.u),
                                     detail::inside(v, properties_.domain.v, properties_.periods.v), order);
   }
+  std::vector<Vec3> points_over_grid(std::vector<double> u, std::vector<double> v) const override;
   int max_order() const override { return properties_.max_order; }
   SurfaceEnclosure enclose(const Rectangle& box, int order) const override;
   int enclosure_order() const override { return properties_.enclosure_order; }
@@ -379,6 +382,20 @@ std::vector<CurvePiece> ComposedCurve<Formula>::pieces() const {
   for (const Interval& part : detail::between(properties_.breaks, properties_.domain))
     result.push_back(detail::plain_curve_piece(part));
   return result;
+}
+
+template <class Formula>
+std::vector<Vec3> ComposedSurface<Formula>::points_over_grid(std::vector<double> u, std::vector<double> v) const {
+  if constexpr (requires { formula_.points_over_grid(u, v); }) {
+    for (double& one : u) one = detail::inside(one, properties_.domain.u, properties_.periods.u);
+    for (double& one : v) one = detail::inside(one, properties_.domain.v, properties_.periods.v);
+    return formula_.points_over_grid(u, v);
+  }
+  std::vector<Vec3> points;
+  points.reserve(u.size() * v.size());
+  for (const double at_u : u)
+    for (const double at_v : v) points.push_back(point(at_u, at_v));
+  return points;
 }
 
 template <class Formula>

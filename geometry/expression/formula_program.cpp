@@ -114,6 +114,7 @@ template void FormulaProgram::evaluate(std::span<const Jet<Interval, 2>>, std::s
 template void FormulaProgram::evaluate(std::span<const Jet<Interval, 4>>, std::span<Jet<Interval, 4>>) const;
 template void FormulaProgram::evaluate(std::span<const Jet2<Interval, 1>>, std::span<Jet2<Interval, 1>>) const;
 template void FormulaProgram::evaluate(std::span<const Jet2<Interval, 2>>, std::span<Jet2<Interval, 2>>) const;
+template void FormulaProgram::evaluate(std::span<const Jet2<Interval, 3>>, std::span<Jet2<Interval, 3>>) const;
 template void FormulaProgram::evaluate(std::span<const Jet2<Interval, 4>>, std::span<Jet2<Interval, 4>>) const;
 template void FormulaProgram::evaluate(std::span<const Jet3<double, 2>>, std::span<Jet3<double, 2>>) const;
 template void FormulaProgram::evaluate(std::span<const Jet3<Interval, 2>>, std::span<Jet3<Interval, 2>>) const;

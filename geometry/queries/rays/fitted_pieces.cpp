@@ -12,8 +12,8 @@
 #include <map>
 #include <mutex>
 
+#include "geometry/grid_points.h"
 #include "geometry/numerics/chebyshev.h"
-#include "geometry/surfaces/nets/boolean_sum.h"
 
 namespace lekalo::geometry {
 
@@ -104,23 +104,18 @@ SurfacePiece patch_of(const Fit& fit) {
   return piece;
 }
 
-// Boolean sums evaluate each operand once for a row or a column.
-std::vector<Vec3> grid_points(const Surface& surface, const std::vector<double>& u, const std::vector<double>& v) {
-  if (const auto* blended = dynamic_cast<const BlendedSurface*>(&surface)) return points_over_grid(*blended, u, v);
-  std::vector<Vec3> points;
-  points.reserve(u.size() * v.size());
-  for (const double at_u : u)
-    for (const double at_v : v) points.push_back(surface.point(at_u, at_v));
-  return points;
-}
-
 // Beyond `farthest` distances are not known to the end.
 void fit(const Surface& surface, Fit& fit, double tolerance, double farthest) {
+  const auto* of_grid = dynamic_cast<const GridPoints*>(&surface);
   // Points (x_i, y_j) at i * (number of y_j) + j.
   const auto points = [&](std::vector<double> x, std::vector<double> y) {
     for (double& one : x) one = fit.u(one);
     for (double& one : y) one = fit.v(one);
-    return grid_points(surface, x, y);
+    if (of_grid) return of_grid->points_over_grid(std::move(x), std::move(y));
+    std::vector<Vec3> all;
+    for (const double u : x)
+      for (const double v : y) all.push_back(surface.point(u, v));
+    return all;
   };
   std::vector<double> nodes;
   for (int j = 0; j < kNodes; ++j) nodes.push_back(node(j));

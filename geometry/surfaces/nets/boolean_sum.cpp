@@ -147,35 +147,28 @@ BlendedSurface blended_surface(BooleanSum sum, const Rectangle& domain, const Pe
   return BlendedSurface(std::move(sum), std::move(properties));
 }
 
-std::vector<Vec3> points_over_grid(const BlendedSurface& surface, const std::vector<double>& u,
-                                   const std::vector<double>& v) {
-  const BooleanSum& sum = surface.formula();
-  const Rectangle domain = surface.domain();
-  const Periods periods = surface.periods();
+std::vector<Vec3> BooleanSum::points_over_grid(const std::vector<double>& u, const std::vector<double>& v) const {
   // Points of the curves: [place][curve].
-  const auto known_at = [](const std::vector<CurvePtr>& curves, const std::vector<double>& places, const Interval& of,
-                           double period) {
+  const auto known_at = [](const std::vector<CurvePtr>& curves, const std::vector<double>& places) {
     std::vector<std::vector<Triple<double>>> all(places.size());
     for (size_t k = 0; k < places.size(); ++k)
-      for (const CurvePtr& curve : curves) all[k].push_back(curve_at(*curve, detail::inside(places[k], of, period)));
+      for (const CurvePtr& curve : curves) all[k].push_back(curve_at(*curve, places[k]));
     return all;
   };
-  const auto c = known_at(sum.along_u.curves, u, domain.u, periods.u),
-             b = known_at(sum.along_v.functions, u, domain.u, periods.u),
-             a = known_at(sum.along_u.functions, v, domain.v, periods.v),
-             g = known_at(sum.along_v.curves, v, domain.v, periods.v);
-  std::vector<Vec3> points;
-  points.reserve(u.size() * v.size());
+  const auto c = known_at(along_u.curves, u), b = known_at(along_v.functions, u);
+  const auto a = known_at(along_u.functions, v), g = known_at(along_v.curves, v);
+  std::vector<Vec3> found;
+  found.reserve(u.size() * v.size());
   for (size_t k = 0; k < u.size(); ++k)
     for (size_t l = 0; l < v.size(); ++l) {
       Triple<double> point{0, 0, 0};
       for (size_t i = 0; i < c[k].size(); ++i) point += a[l][i].x * c[k][i];
       for (size_t j = 0; j < b[k].size(); ++j) point += b[k][j].x * g[l][j];
-      for (size_t j = 0; j < sum.points.size(); ++j)
-        for (size_t i = 0; i < sum.points[j].size(); ++i) point -= (b[k][j].x * a[l][i].x) * triple(sum.points[j][i]);
-      points.emplace_back(point.x, point.y, point.z);
+      for (size_t j = 0; j < points.size(); ++j)
+        for (size_t i = 0; i < points[j].size(); ++i) point -= (b[k][j].x * a[l][i].x) * triple(points[j][i]);
+      found.emplace_back(point.x, point.y, point.z);
     }
-  return points;
+  return found;
 }
 
 }  // namespace lekalo::geometry

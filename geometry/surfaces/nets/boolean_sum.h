@@ -26,6 +26,9 @@ struct BooleanSum {
   template <class T>
   Triple<T> operator()(const T& u, const T& v) const;
 
+  // Its points (u_i, v_j) at i * v.size() + j: every operand is evaluated once for each u, or v.
+  std::vector<Vec3> points_over_grid(const std::vector<double>& u, const std::vector<double>& v) const;
+
   // The patches of cells between the breaks, u outer; none where they are not rational.
   std::vector<SurfacePiece> rational_pieces(const std::vector<double>& breaks_u,
                                             const std::vector<double>& breaks_v) const;
@@ -36,10 +39,6 @@ using BlendedSurface = ComposedSurface<BooleanSum>;
 // The surface over the rectangle. The curves of `along_u` and the functions of `along_v` are defined over its u, the
 // others over its v; either family may be empty.
 BlendedSurface blended_surface(BooleanSum sum, const Rectangle& domain, const Periods& periods = {});
-
-// Its points (u_i, v_j) at i * v.size() + j: every operand is evaluated once for each u, or v.
-std::vector<Vec3> points_over_grid(const BlendedSurface& surface, const std::vector<double>& u,
-                                   const std::vector<double>& v);
 
 // Functions over the span of `nodes` (increasing): each is 1 at its node and 0 at the others.
 std::vector<CurvePtr> lagrange_functions(const std::vector<double>& nodes);
