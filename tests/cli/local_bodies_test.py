@@ -133,6 +133,17 @@ class LocalBodies(ProgramTest):
         for edges in "{ of_face: end }", "{ between: [side, side] }", "{}":
             self.assertLess(self.volume(f"type: fillet_body, of: loft, fillets: {{ edges: {edges}, radius: 0.05 }}", bent), sharp)
 
+    def test_balls_near_to_edges_of_boxes(self):
+        """A contour begins anywhere; where that is near to an edge that moves past it the vertex makes way. Inward by 1 is a box and a ball of other sizes."""
+        for center in ([10, 8, 0], [9, 8, 0], [6, 8, 2], [5.32, 8.79, 0.55]):
+            def cut(size, radius, name):
+                return (f"  {name}: {{ type: difference, of: {{ type: box, size: [{size}, {size}, {size}], center: [0, 0, 0] }}, "
+                        f"minus: {{ type: ball, center: {center}, radius: {radius} }} }}\n")
+            both = cut(20, 5, "outer") + cut(18, 6, "inner")
+            outer, inner = self.volume("like: outer", both), self.volume("like: inner", both)
+            self.assert_near(self.volume("type: offset_body, of: outer, distance: -1", both), inner, 1e-11)
+            self.assert_near(self.volume("type: shell_body, of: outer, thickness: 1", both), outer - inner, 1e-10)
+
     def test_fillet_beside_a_hole(self):
         plate = ("{ type: extrusion_body, along: [0, 0, 2], of: [{ type: rectangle, size: [6, 4] }, { type: circle, radius: 0.2, center: [0, 1.5] }] }")
         self.refused(f"type: fillet_body, of: {plate}, fillets: {{ edges: {{ between: [side.2, end] }}, radius: 0.5 }}", "edge",

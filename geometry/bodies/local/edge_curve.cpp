@@ -14,6 +14,7 @@
 #include "geometry/queries/closest/closest_point.h"
 #include "geometry/queries/contours/surface_intersection.h"
 #include "geometry/surfaces/analytic/plane.h"
+#include "geometry/surfaces/analytic/sphere.h"
 #include "geometry/surfaces/derived/extended.h"
 #include "geometry/transformed.h"
 
@@ -111,7 +112,7 @@ std::optional<EdgeCurve> ruled_section(const EdgeSide& ruled, const EdgeSide& pl
         along_v ? Interval(std::min(a.x, b.x), std::max(a.x, b.x)) : Interval(std::min(a.y, b.y), std::max(a.y, b.y));
     const bool backward = along_v ? a.x > b.x : a.y > b.y;
     const Interval whole = along_v ? d.u : d.v;
-    if (!(range.width() > 1e-9 * whole.width())) continue;
+    if (!(range.width() > 1e-9 * whole.width()) || !is_ruled(*ruled.surface, along_v, d, size)) continue;
     for (double* end : {&range.lo, &range.hi})
       for (const double own : {whole.lo, whole.hi})
         if (std::abs(*end - own) <= 1e-12 * whole.width()) *end = own;
@@ -164,10 +165,17 @@ SurfacePtr wide_enough(const EdgeSide& side, const Vec3& from, const Vec3& to) {
   const auto widened = [](const Interval& own, double x, double y, double period) {
     if (is_whole(own, period)) return own;
     const double lo = std::min({own.lo, x, y}), hi = std::max({own.hi, x, y}), more = 0.02 * (hi - lo);
-    return Interval(lo < own.lo ? lo - more : lo, hi > own.hi ? hi + more : hi);
+    const Interval wide(lo < own.lo ? lo - more : lo, hi > own.hi ? hi + more : hi);
+    if (period > 0 && wide.width() > period)
+      return Interval(wide.middle() - 0.5 * period, wide.middle() + 0.5 * period);
+    return wide;
   };
   const Rectangle wide{widened(d.u, a.x, b.x, periods.u), widened(d.v, a.y, b.y, periods.v)};
-  return wide.u == d.u && wide.v == d.v ? side.surface : extended_to(side.surface, wide);
+  if (wide.u == d.u && wide.v == d.v) return side.surface;
+  // Between the ends it may come nearer to a pole than they are.
+  if (dynamic_cast<const SphereSurface*>(side.surface.get()))
+    return extended_to(side.surface, {{wide.u.middle() - kPi, wide.u.middle() + kPi}, {-0.5 * kPi, 0.5 * kPi}});
+  return extended_to(side.surface, wide);
 }
 
 std::optional<double> parameter_on(const CurvePtr& curve, const Vec3& point, double size) {

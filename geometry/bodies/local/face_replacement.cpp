@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "geometry/bodies/constructions/swept_body.h"
 #include "geometry/bodies/local/crossing_faces.h"
@@ -20,10 +22,34 @@ namespace {
 
 constexpr int kGuide = 8;
 
+// Vertices of two faces alone that slide to the middle of one of their edges, because the other one would vanish.
+using Sliding = std::map<int, int>;
+
+// Points at even distances along others.
+std::vector<Vec3> evenly(const std::vector<Vec3>& points, int count) {
+  std::vector<double> way{0};
+  for (size_t k = 1; k < points.size(); ++k) way.push_back(way.back() + glm::length(points[k] - points[k - 1]));
+  std::vector<Vec3> result;
+  size_t at = 1;
+  for (int k = 0; k <= count; ++k) {
+    const double s = way.back() * k / count;
+    while (at + 1 < points.size() && way[at] < s) ++at;
+    const double part = way[at] - way[at - 1];
+    result.push_back(glm::mix(points[at - 1], points[at], part > 0 ? std::min(1.0, (s - way[at - 1]) / part) : 0.0));
+  }
+  return result;
+}
+
 class Replacing {
  public:
-  Replacing(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field, bool cut_off)
-      : new_(body, surfaces, field), old_(new_.old()), field_(field), size_(new_.size()), cut_off_(cut_off) {}
+  Replacing(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field, bool cut_off,
+            Sliding sliding = {})
+      : new_(body, surfaces, field),
+        old_(new_.old()),
+        field_(field),
+        size_(new_.size()),
+        cut_off_(cut_off),
+        sliding_(std::move(sliding)) {}
 
   FaceReplacement build() {
     made_.polyhedral = new_.are_plane();
@@ -35,6 +61,17 @@ class Replacing {
     add_shells();
     measure_tolerances(made_.body);
     return std::move(made_);
+  }
+
+  // What may be tried where edges have turned.
+  Sliding sliding() const {
+    Sliding result;
+    for (const Corner& corner : corners_of(old_, new_.removed())) {
+      if (!new_.may_slide(corner)) continue;
+      const int a = use(corner.sectors[0].in).edge, b = use(corner.sectors[1].in).edge;
+      if (turned_.count(a) != turned_.count(b)) result[corner.vertex] = turned_.count(a) ? b : a;
+    }
+    return result;
   }
 
  private:
@@ -58,7 +95,8 @@ class Replacing {
   };
 
   void add_corner(const Corner& corner) {
-    const CornerTree tree = new_.tree_of(corner);
+    const auto sliding = sliding_.find(corner.vertex);
+    const CornerTree tree = sliding == sliding_.end() ? new_.tree_of(corner) : new_.tree_along(corner, sliding->second);
     std::vector<int> vertices;
     const bool one = tree.joints.empty();
     for (size_t k = 0; k < tree.points.size(); ++k) {
@@ -164,12 +202,10 @@ class Replacing {
     const int a = old.coedges[0], b = old.coedges[1];
     if (new_.carrier(e) >= 0)
       if (auto edge = new_.carried_edge(e, from, to)) return *edge;
-    std::vector<Vec3> guide;
-    const Interval t = old.curve->domain();
-    for (int k = 0; k <= kGuide; ++k) guide.push_back(old.curve->point(t.lo + t.width() * k / kGuide));
+    const std::vector<Vec3> guide = guide_of(e);
     std::string why;
     try {
-      if (auto edge = intersection_edge({new_.side_of(a), new_.side_of(b)}, from, to, guide, size_)) return *edge;
+      if (auto edge = intersection_edge({side_of(a), side_of(b)}, from, to, guide, size_)) return *edge;
     } catch (const FieldError&) {
       throw;
     } catch (const std::invalid_argument& error) {
@@ -181,11 +217,39 @@ class Replacing {
                      "a smaller change, or one of the neighbours too");
   }
 
+  EdgeSide side_of(int c) const {
+    EdgeSide side = new_.side_of(c);
+    const Edge& edge = old_.edges[use(c).edge];
+    for (int k = 0; k < 2; ++k) {
+      const auto sliding = sliding_.find(k == 0 ? edge.start : edge.end);
+      if (sliding != sliding_.end()) side.near[k] = new_.near_middle(face_of(c), sliding->second);
+    }
+    return side;
+  }
+
+  // Where the edge was; of one with a vertex that slides from or to there.
+  std::vector<Vec3> guide_of(int e) const {
+    const Edge& edge = old_.edges[e];
+    std::vector<Vec3> points;
+    const auto add = [&](int of, double from, double to) {
+      const Interval t = old_.edges[of].curve->domain();
+      for (int k = 0; k <= kGuide; ++k)
+        points.push_back(old_.edges[of].curve->point(t.lo + t.width() * (from + (to - from) * k / kGuide)));
+    };
+    const auto start = sliding_.find(edge.start), end = sliding_.find(edge.end);
+    const bool from = start != sliding_.end(), to = end != sliding_.end();
+    if (from && start->second != e) add(start->second, 0.5, old_.edges[start->second].start == edge.start ? 0 : 1);
+    add(e, from && start->second == e ? 0.5 : 0, to && end->second == e ? 0.5 : 1);
+    if (to && end->second != e) add(end->second, old_.edges[end->second].start == edge.end ? 0 : 1, 0.5);
+    return from || to ? evenly(points, kGuide) : points;
+  }
+
   void note_turn(int e, const Curve& curve) {
-    const Curve& old = *old_.edges[e].curve;
-    const Vec3 before = old.point(old.domain().middle()) - old.point(old.domain().lo),
+    const std::vector<Vec3> old = guide_of(e);
+    const Vec3 before = old[kGuide / 2] - old[0],
                after = curve.point(curve.domain().middle()) - curve.point(curve.domain().lo);
     if (!(glm::dot(before, after) > 0)) {
+      turned_.insert(e);
       const std::string name = old_.edges[e].origin.text();
       made_.turned_edges.push_back(name.empty() ? std::to_string(e) : name);
     }
@@ -358,6 +422,8 @@ class Replacing {
   const char* field_;
   double size_;
   bool cut_off_;
+  Sliding sliding_;
+  std::set<int> turned_;                       // edges
   std::vector<NewEdge> edges_;                 // of each old edge
   std::vector<std::vector<JointUse>> joints_;  // that follow each old coedge in its loop
   std::vector<Joint> all_joints_;
@@ -371,7 +437,13 @@ class Replacing {
 
 FaceReplacement replace_faces(const Body& body, const std::vector<SurfacePtr>& surfaces, const char* field,
                               bool cut_off) {
-  return Replacing(body, surfaces, field, cut_off).build();
+  Replacing replacing(body, surfaces, field, cut_off);
+  FaceReplacement made = replacing.build();
+  if (made.turned_edges.empty()) return made;
+  const Sliding sliding = replacing.sliding();
+  if (sliding.empty()) return made;
+  FaceReplacement slid = Replacing(body, surfaces, field, cut_off, sliding).build();
+  return slid.turned_edges.empty() ? slid : made;
 }
 
 void check_replacement(const FaceReplacement& made, const char* field, const char* hint) {

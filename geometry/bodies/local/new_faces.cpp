@@ -210,6 +210,28 @@ CornerTree NewFaces::tree_of(const Corner& corner) const {
   return *tree;
 }
 
+bool NewFaces::may_slide(const Corner& corner) const {
+  return corner.vertex >= 0 && corner.sectors.size() == 2 && corner.sectors[0].face != corner.sectors[1].face &&
+         std::all_of(corner.sectors.begin(), corner.sectors.end(), [&](const Sector& s) {
+           return carriers_[use(s.in).edge] < 0 && old_.edges[use(s.in).edge].kind == EdgeKind::regular;
+         });
+}
+
+Vec2 NewFaces::near_middle(int face, int edge) const {
+  const double middle = old_.edges[edge].curve->domain().middle();
+  if (planes_[face]) return Vec2(planes_[face]->to_local_point(old_.edges[edge].curve->point(middle)));
+  const std::vector<int>& uses = old_.edges[edge].coedges;
+  return Vec2(use(face_of(uses[0]) == face ? uses[0] : uses[1]).image->point(middle));
+}
+
+CornerTree NewFaces::tree_along(const Corner& corner, int edge) const {
+  const auto on = [&](const Sector& s) {
+    return SurfaceNear{supports_[s.face], planes_[s.face], near_middle(s.face, edge)};
+  };
+  const auto point = nearest_common_point(on(corner.sectors[0]), on(corner.sectors[1]), size_);
+  return point ? CornerTree{{*point}, {0, 0}, {}} : tree_of(corner);
+}
+
 EdgeSide NewFaces::side_of(int coedge) const {
   const int face = face_of(coedge);
   return {supports_[face], planes_[face], {near(coedge, false, false), near(coedge, true, false)}};

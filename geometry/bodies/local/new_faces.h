@@ -34,10 +34,16 @@ class NewFaces {
   // Parameters of the support near to an end of an old edge: of the coedge as its loop runs, or of its edge.
   Vec2 near(int coedge, bool at_end, bool along_loop = true) const;
   EdgeSide side_of(int coedge) const;
+  // Parameters of a face's support near to the middle of one of its edges.
+  Vec2 near_middle(int face, int edge) const;
   std::string name(int face) const { return name_of_face(old_, face); }
 
   // Where the faces of a corner come together. Throws FieldError where they do not.
   CornerTree tree_of(const Corner& corner) const;
+  // A vertex in which two faces alone meet may be anywhere along their edges.
+  bool may_slide(const Corner& corner) const;
+  // The same for such a vertex, near to the middle of one of its edges.
+  CornerTree tree_along(const Corner& corner, int edge) const;
   // An edge that has a carrier, between its new ends: along its image, or the straight line of the parameter plane
   // where it was one. Nothing where the faces do not run along it.
   std::optional<EdgeCurve> carried_edge(int edge, const Vec3& from, const Vec3& to) const;
