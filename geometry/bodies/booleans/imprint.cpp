@@ -479,7 +479,8 @@ class Imprinting {
 
   void split_contours() {
     for (const auto& [f, g, contour] : contours_) {
-      const CurvePtr curve = contour_approximation(contour.curve);
+      const auto [curve, images] =
+          contour_approximation(contour, {face(0, f).surface.get(), face(1, g).surface.get()}, kNearSingular);
       const NearCurve near(curve);
       // A point: the surfaces touch there.
       if (near.length() <= 8 * tolerance_) continue;
@@ -487,9 +488,6 @@ class Imprinting {
       std::vector<Cut> cuts;
       for (size_t k = 0; k < imprint_.points.size(); ++k)
         for (const double t : near.places_of(imprint_.points[k], tolerance_)) cuts.push_back({t, static_cast<int>(k)});
-      const std::array<Curve2Ptr, 2> images{
-          contour_approximation(contour.curve, *face(0, f).surface, contour.images[0], kNearSingular),
-          contour_approximation(contour.curve, *face(1, g).surface, contour.images[1], kNearSingular)};
       const double least = 2 * tolerance_ / near.length() * domain.width();
       const auto end_point = [&](double t) {
         for (const Cut& one : cuts)

@@ -1,6 +1,9 @@
 // Contours and parameter lines for whoever asks many questions of one.
 #pragma once
 
+#include <array>
+
+#include "geometry/contour.h"
 #include "geometry/surface.h"
 
 namespace lekalo::geometry {
@@ -22,5 +25,13 @@ Curve2Ptr contour_approximation(const CurvePtr& curve, const Surface& surface, c
 // The same to what moves the surface's point by a length at most, as far as a few places tell.
 Curve2Ptr contour_approximation_within(const CurvePtr& curve, const Surface& surface, const Curve2Ptr& image,
                                        double length);
+
+// An intersection with both images, whose equations are solved once for all three at each place.
+struct ContourApproximation {
+  CurvePtr curve;
+  std::array<Curve2Ptr, 2> images;
+};
+ContourApproximation contour_approximation(const Contour& contour, const std::array<const Surface*, 2>& surfaces,
+                                           double coarsest, double finest = 1e-13);
 
 }  // namespace lekalo::geometry

@@ -101,6 +101,8 @@ class ContourImage final : public Curve {
   int max_order() const override { return solution_->highest_order(); }
   CurveEnclosure enclose(const Interval& t, int order) const override;
   std::vector<CurvePiece> pieces() const override;
+  const std::shared_ptr<const ContourSolution<N>>& solution() const { return solution_; }
+  int first() const { return first_; }
 
  private:
   std::shared_ptr<const ContourSolution<N>> solution_;
