@@ -121,7 +121,7 @@ void meet_all(const Hierarchy::Parts& p, std::span<const Ray> rays, std::span<Hi
   }
 }
 
-// Rays through a scene of pieces, in packets where they go together; else they are asked one after the other.
+// Rays through a scene of pieces, in packets where they go together; where not, nothing is done.
 class PiecePackets {
  public:
   explicit PiecePackets(const Hierarchy::Parts& parts) : parts_(parts) {}
@@ -144,6 +144,7 @@ class PiecePackets {
     if (!parts_.grouped_pieces || turn_apart(rays)) return false;
     Packet packet(parts_, rays);
     if (!packet.together) return false;
+    queries_.leave = std::any_of(rays.begin(), rays.end(), [](const Ray& ray) { return ray.left_instance >= 0; });
     for (size_t i = 0; i < rays.size(); ++i) {
       Query& query = queries_.queries[i].emplace(rays[i]);
       begin(query, rays[i]);

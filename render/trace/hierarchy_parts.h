@@ -36,7 +36,8 @@ struct GeometryRecord {
   int face = 0;  // of a target
   const geometry::LineTarget* target = nullptr;
   int count = 1;  // pieces of a target, or instances
-  // Pieces that follow each other, neighbours mostly, and are one primitive to Embree: two where there are many.
+  // Pieces that follow each other, neighbours mostly, and are one primitive to Embree: two where there are many (at
+  // most GroupHits::kMostPieces).
   int together = 1;
   int primitive_count() const { return (count + together - 1) / together; }
   int first_piece(unsigned primitive) const { return together * static_cast<int>(primitive); }
@@ -76,7 +77,7 @@ struct Hierarchy::Parts {
   size_t pieces = 0, triangles = 0, bytes = 0;
   // The scene holds nothing but triangles that all rays see, so that Embree alone finds candidates.
   bool plain_triangles = false;
-  // The scene holds no triangles, and pieces that turn away most lines of a group at once.
+  // The scene holds pieces of surfaces, which are asked for groups of lines, and no triangles.
   bool grouped_pieces = false;
   RTCScene scene = nullptr;
 
@@ -169,6 +170,7 @@ struct PacketQuery {
   static constexpr size_t kMost = geometry::LineGroup::kMost;
   RTCIntersectContext context;  // first: Embree hands its address back
   geometry::LineGroup lines;
+  bool leave;  // some of the rays have left a face or piece
   std::optional<Hierarchy::Query> queries[kMost];
 };
 

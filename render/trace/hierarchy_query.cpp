@@ -130,49 +130,39 @@ void test_primitive(const void* of, unsigned primitive, Query& query) {
 template <class After>
 void test_packet(const void* of, unsigned primitive, const int* valid, PacketQuery& packet, const After& after) {
   const auto& record = *static_cast<const GeometryRecord*>(of);
+  const int first = record.first_piece(primitive), end = record.end_of_pieces(primitive);
   unsigned rest = 0;
-  for (unsigned i = 0; i < PacketQuery::kMost; ++i) rest |= static_cast<unsigned>(valid[i] != 0) << i;
-  const bool filters = record.kind == GeometryRecord::Kind::target;
-  const int end = record.end_of_pieces(primitive);
-  for (int piece = record.first_piece(primitive); piece < end; ++piece) {
-    unsigned asked = filters ? rest & record.target->may_meet(piece, packet.lines) : rest;
-    for (; asked; asked &= asked - 1) {
-      const int i = std::countr_zero(asked);
-      Query& query = *packet.queries[i];
-      if (query.is_done()) continue;
-      test(record, piece, query);
-      after(i, query);
+  for (int i = 0; i < geometry::LineGroup::kMost; ++i) rest |= static_cast<unsigned>(valid[i] != 0) << i;
+  if (!record.whole) {
+    for (; rest; rest &= rest - 1) {
+      const int i = std::countr_zero(rest);
+      test_primitive(of, primitive, *packet.queries[i]);
+      after(i, *packet.queries[i]);
     }
+    return;
+  }
+  unsigned asked[geometry::GroupHits::kMostPieces];
+  for (int piece = first; piece < end; ++piece) {
+    asked[piece - first] = rest;
+    if (!packet.leave) continue;
+    for (unsigned each = rest; each; each &= each - 1)
+      if (packet.queries[std::countr_zero(each)]->has_left(record, piece)) asked[piece - first] &= ~(each & -each);
+  }
+  geometry::GroupHits hits;
+  record.target->group_hits(first, end, asked, packet.lines, hits);
+  for (const geometry::GroupHit& one : hits) {
+    Query& query = *packet.queries[one.line];
+    if (query.is_done()) continue;
+    if (one.is_open)
+      test_whole_target(record, one.piece, query);
+    else if (!query.nearest)
+      query.found = true;
+    else if (query.range.contains(one.hit.t))
+      query.accept_nearest({one.hit.t, record.bare ? 0 : one.hit.u, record.bare ? 0 : one.hit.v,
+                            query.leaf_offset + record.leaf_number, record.face, one.piece});
+    after(one.line, query);
   }
 }
-
-// All segments from a point to the places of a box. At the part s of the way they fill the box from + s (to - from).
-class Shaft {
- public:
-  Shaft(const Vec3& from, const Box3& to) : from_(from), lo_(to.lo - from), hi_(to.hi - from) {}
-  // True if one of them may meet the box.
-  bool may_enter(const Box3& box) const {
-    double begin = 0, end = 1;
-    const auto at_most = [&](double slope, double value) {  // slope s <= value
-      if (slope > 0)
-        end = std::min(end, value / slope);
-      else if (slope < 0)
-        begin = std::max(begin, value / slope);
-      else if (value < 0)
-        end = -1;
-    };
-    for (int k = 0; k < 3; ++k) {
-      at_most(lo_[k], box.hi[k] - from_[k]);
-      at_most(-hi_[k], from_[k] - box.lo[k]);
-    }
-    return begin <= end;
-  }
-
- private:
-  Vec3 from_, lo_, hi_;
-};
-
-constexpr size_t kLastBit = 63;
 
 // Asked for one member of the lists after the other, whether it is among the obstacles.
 class Listed {
@@ -337,23 +327,6 @@ bool Hierarchy::nearest(const Ray& ray, Hit& hit, const Obstacles& among) const 
   query.extent = parts_->extent;
   run(query);
   return query.found;
-}
-
-Obstacles Hierarchy::obstacles(const Ray& from, const Box3& to) const {
-  const Parts& p = *parts_;
-  Query query(from);
-  begin(query, from);
-  const Shaft shaft(from.origin, to);
-  Obstacles result{0, false};
-  size_t number = 0;
-  const auto list = [&](bool listed) {
-    if (listed) result.listed |= uint64_t{1} << std::min(number, kLastBit);
-    ++number;
-  };
-  for (const Parts::Piece& piece : p.few) list(!query.has_left(*piece.record) && shaft.may_enter(piece.box));
-  for (const Parts::Piece& piece : p.unbounded) list(!query.has_left(*piece.record) && shaft.may_enter(piece.box));
-  result.scene = p.scene && shaft.may_enter(p.box.inflated(kBoxInflation * p.radius));
-  return result;
 }
 
 bool Hierarchy::occluded(const Ray& ray, const Obstacles& among) const {

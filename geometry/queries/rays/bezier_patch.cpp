@@ -24,7 +24,7 @@ namespace {
 
 template <int kP, int kQ>
 inline PatchPoint evaluate_as(const PatchView& patch, double s, double t) {
-  const PatchSums at = sums<kP, kQ>(patch, s, t);
+  const PatchSums<Lanes> at = sums<kP, kQ, double, Lanes>(patch, s, t);
   const double inverse = 1 / at.point[3];
   const Lanes point = inverse * at.point, ds = inverse * (at.ds - at.ds[3] * point),
               dt = inverse * (at.dt - at.dt[3] * point);

@@ -9,6 +9,32 @@
 
 namespace lekalo::geometry {
 
+// Unit vectors across a unit direction (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
+inline void vectors_across(const double (&d)[3], double (&n1)[3], double (&n2)[3]) {
+  const double sign = std::copysign(1.0, d[2]);
+  const double a = -1 / (sign + d[2]), b = d[0] * d[1] * a;
+  n1[0] = 1 + sign * d[0] * d[0] * a, n1[1] = sign * b, n1[2] = -sign * d[0];
+  n2[0] = b, n2[1] = sign + d[1] * d[1] * a, n2[2] = -d[1];
+}
+
+// Where the line passes `center`, but for 1e-7 of the way there, in coordinates relative to `center`; `upper` is the
+// direction in floats, `lower` the rest. Origin - center is taken with its rounding error (Knuth, TAOCP 2, 4.2.2). With
+// the foot point's parameter, which is returned, a float, its products with a float and with what is left of the
+// direction are exact; the first nearly takes the difference away.
+inline double move_near(const double (&origin)[3], const double (&direction)[3], const double (&upper)[3],
+                        const double (&lower)[3], double inverse_length2, const Vec3& center, double (&near)[3]) {
+  double from[3], error[3];
+  for (int k = 0; k < 3; ++k) {
+    from[k] = origin[k] - center[k];
+    const double taken = origin[k] - from[k];
+    error[k] = (origin[k] - (from[k] + taken)) + (taken - center[k]);
+  }
+  const double along = from[0] * direction[0] + from[1] * direction[1] + from[2] * direction[2];
+  const double foot_point = static_cast<float>(-along * inverse_length2);
+  for (int k = 0; k < 3; ++k) near[k] = (from[k] + foot_point * upper[k]) + (foot_point * lower[k] + error[k]);
+  return foot_point;
+}
+
 struct LineBasis {
   Line line;
   Vec3 n1{0}, n2{0};           // unit vectors across the line
@@ -21,11 +47,10 @@ struct LineBasis {
     inverse_length2 = 1 / length2;
     inverse_length = 1 / std::sqrt(length2);
     const Vec3 d = inverse_length * l.direction;
-    // Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017.
-    const double sign = std::copysign(1.0, d.z);
-    const double a = -1 / (sign + d.z), b = d.x * d.y * a;
-    n1 = {1 + sign * d.x * d.x * a, sign * b, -sign * d.x};
-    n2 = {b, sign + d.y * d.y * a, -d.y};
+    double across[2][3];
+    vectors_across({d.x, d.y, d.z}, across[0], across[1]);
+    n1 = {across[0][0], across[0][1], across[0][2]};
+    n2 = {across[1][0], across[1][1], across[1][2]};
     for (int k = 0; k < 3; ++k) axes[k] = Lanes{n1[k], n2[k], d[k], 0};
   }
 };
@@ -51,12 +76,11 @@ class PreparedLine {
       for (int k = 0; k < 3; ++k) upper_[k] = static_cast<float>(line_.direction[k]);
       lower_ = line_.direction - upper_;
     }
-    // origin - center and its rounding error (Knuth, TAOCP 2, 4.2.2). With `foot point` a float, its products with a
-    // float and with what is left of the direction are exact; the first nearly takes the difference away.
-    const Vec3 &o = line_.origin, from = o - center, taken = o - from;
-    const Vec3 error = (o - (from + taken)) + (taken - center);
-    foot_point = foot_point_ = static_cast<float>(-glm::dot(from, line_.direction) * basis_->inverse_length2);
-    basis_->line.origin = (from + foot_point * upper_) + (foot_point * lower_ + error);
+    const Vec3 &o = line_.origin, &d = line_.direction;
+    double near[3];
+    foot_point = foot_point_ = move_near({o.x, o.y, o.z}, {d.x, d.y, d.z}, {upper_.x, upper_.y, upper_.z},
+                                         {lower_.x, lower_.y, lower_.z}, basis_->inverse_length2, center, near);
+    basis_->line.origin = {near[0], near[1], near[2]};
     center_ = center;
     return *basis_;
   }

@@ -6,7 +6,7 @@
 
 #include "geometry/numerics/instruction_sets.h"
 #include "geometry/numerics/lanes.h"
-#include "geometry/queries/rays/bezier_sums.h"
+#include "geometry/queries/rays/cell_newton.h"
 #include "geometry/queries/rays/line_net.h"
 #include "geometry/tolerances.h"
 
@@ -14,31 +14,15 @@ namespace lekalo::geometry {
 
 namespace {
 
-// Contraction factor up to which Newton's iteration is sure to converge: with |J^-1| r = q the derivative matrices of
-// two places of the cell differ by at most 2 q / (1 - q) of either, which is 2/3 < 1 for q = 1/4.
-constexpr double kContraction = 0.25;
-
-// Row sums of |J^-1| r below 1 make the two functions one-to-one on the cell: a root that Newton's iteration finds
-// there is the only one. Where it finds none, nothing is known.
-constexpr double kInjective = 0.9;
-
 // Cells that one line may ask of one cell of a surface before the search gives up: only lines that run inside the
 // surface (tangent along a curve) get there. Roots are found with a quarter of that, at cusps and poles too. Where a
 // formula has a fractional power of zero the doubles near zero have to be gone through, a hundred halvings.
 constexpr int kMaxCells = 256, kMaxUnboundedCells = 1024;
 
 // A vector's parts along a line's n1, n2 and the line.
-inline void see(const LineBasis& line, double x, double y, double z, Lanes& parts) {
-  parts = x * line.axes[0] + y * line.axes[1] + z * line.axes[2];
-}
-inline void see(const LineBasis& line, const Vec3& v, Lanes& parts) { see(line, v.x, v.y, v.z, parts); }
+inline void see(const LineBasis& line, const Vec3& v, Lanes& parts) { geometry::see(line.axes, v.x, v.y, v.z, parts); }
 
-// A place of a cell as its line sees it: the parts of the vector from the line's origin and of its derivatives by the
-// cell's x and y, all times the same positive scale.
-struct SeenPoint {
-  Lanes from_origin, dx, dy;
-  double scale = 1;
-};
+using SeenPoint = SeenPlace<double, Lanes>;
 
 template <int kP, int kQ>
 struct PatchCells {
@@ -50,19 +34,8 @@ struct PatchCells {
   PatchCells(const PatchView& of, const PatchCell& place, const LineBasis& line) : patch(of), cell(place.place()) {
     see(line, line.line.origin, origin);
   }
-  // The derivative of a ratio A / w is (w A' - A w') / w^2: without a division, times w^2.
   void see_at(double x, double y, const LineBasis& line, SeenPoint& p) const {
-    const double hx = 0.5 * cell.hx, hy = 0.5 * cell.hy;
-    const PatchSums at = sums<kP, kQ>(patch, 0.5 * (cell.x + 1.0) + hx * x, 0.5 * (cell.y + 1.0) + hy * y);
-    const double w = at.point[3];
-    Lanes a, by_s, by_t;
-    see(line, at.point[0], at.point[1], at.point[2], a);
-    see(line, at.ds[0], at.ds[1], at.ds[2], by_s);
-    see(line, at.dt[0], at.dt[1], at.dt[2], by_t);
-    p.from_origin = w * (a - w * origin);
-    p.dx = hx * (w * by_s - at.ds[3] * a);
-    p.dy = hy * (w * by_t - at.dt[3] * a);
-    p.scale = w * w;
+    see_patch<kP, kQ, double, Lanes, Lanes>(patch, cell.x, cell.y, cell.hx, cell.hy, line.axes, origin, x, y, p);
   }
 };
 
@@ -101,6 +74,7 @@ struct SurfaceCells {
     see(line, here.point - line.line.origin, p.from_origin);
     see(line, here.ds, p.dx);
     see(line, here.dt, p.dy);
+    p.scale = 1;
   }
   CellModel model() const { return model_of(*surface, box); }
   // How near to the line the hull of the cell comes, and how far from it it reaches, across n1 and n2; the hull's
@@ -126,61 +100,30 @@ struct SurfaceCells {
   }
 };
 
-enum class Verdict { none, one, unsure };
-
-// Where the linear model has the root, and how far from there it may lie.
-struct Guess {
-  double x, y, ex, ey;
-};
-
-// What the guess tells alone; unsure: Newton's iteration has to say.
-inline Verdict judge(const Guess& guess, double slack_x, double slack_y) {
-  return std::abs(guess.x) > 1 + slack_x + guess.ex || std::abs(guess.y) > 1 + slack_y + guess.ey ? Verdict::none
-                                                                                                  : Verdict::unsure;
-}
-
-inline bool is_certain(const Guess& guess) { return guess.ex <= kInjective && guess.ey <= kInjective; }
-
 template <class Cells>
 inline Verdict iterate(const Cells& cells, const Guess& guess, const LineBasis& line, CellHit& hit) {
-  const bool contracts = guess.ex <= kContraction && guess.ey <= kContraction;
   double x = std::clamp(guess.x, -1.0, 1.0), y = std::clamp(guess.y, -1.0, 1.0);
-  bool settled = false;
-  const int most = contracts ? 40 : 8;
-  for (int iteration = 0; iteration < most; ++iteration) {
+  NewtonProgress progress(guess);
+  for (;;) {
     SeenPoint p;
     cells.see_at(x, y, line, p);
-    const double determinant = p.dx[0] * p.dy[1] - p.dy[0] * p.dx[1];
-    if (determinant == 0) return Verdict::unsure;
-    const double inverse = 1 / determinant;
-    const double sx = (p.dy[0] * p.from_origin[1] - p.dy[1] * p.from_origin[0]) * inverse,
-                 sy = (p.dx[1] * p.from_origin[0] - p.dx[0] * p.from_origin[1]) * inverse;
-    const double nx = std::clamp(x + sx, -1.0, 1.0), ny = std::clamp(y + sy, -1.0, 1.0);
-    // A root lies within the contraction factor times the way still to go, at most the cell's width 2, of the step's
-    // end: a step that ends farther outside means none.
-    constexpr double farthest = 1 + 2 * (2 * kContraction / (1 - kContraction));
-    if (std::abs(x + sx) > farthest + cells.slack_x || std::abs(y + sy) > farthest + cells.slack_y)
-      return contracts ? Verdict::none : Verdict::unsure;
-    const double moved = std::max(std::abs(nx - x), std::abs(ny - y));
-    if (moved < 1e-7) {
-      // The remaining error is of the order of the square of the step. What the projection cut off must be rounding,
-      // or, where it is known that the cell itself has no root then, the slack.
-      const double off_x = std::abs(x + sx - nx), off_y = std::abs(y + sy - ny);
-      if (!contracts && std::max(off_x, off_y) > kBorderSlack) return Verdict::unsure;
-      if (off_x > cells.slack_x || off_y > cells.slack_y) {
-        if (settled) return Verdict::none;
-        settled = true;
-      } else {
-        hit.x = nx;
-        hit.y = ny;
-        hit.t = (p.from_origin[2] + (nx - x) * p.dx[2] + (ny - y) * p.dy[2]) / p.scale * line.inverse_length;
+    NewtonStep<double> step;
+    step_from(x, y, p, step);
+    switch (progress.after(x, y, step, cells.slack_x, cells.slack_y)) {
+      case NewtonProgress::State::one:
+        way_to(x, y, p, step, hit.t);
+        hit = {hit.t * line.inverse_length, step.next_x, step.next_y};
         return Verdict::one;
-      }
+      case NewtonProgress::State::none:
+        return Verdict::none;
+      case NewtonProgress::State::unsure:
+        return Verdict::unsure;
+      case NewtonProgress::State::goes_on:
+        break;
     }
-    x = nx;
-    y = ny;
+    x = step.next_x;
+    y = step.next_y;
   }
-  return Verdict::unsure;
 }
 
 Verdict decide(const SurfaceCells& cells, const CellModel& m, const LineBasis& line, CellHit& hit) {

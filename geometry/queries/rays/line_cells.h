@@ -29,6 +29,13 @@
 
 namespace lekalo::geometry {
 
+enum class Verdict { none, one, unsure };
+
+// Where the linear model of a cell has the root, and how far from there it may lie.
+struct Guess {
+  double x, y, ex, ey;
+};
+
 // A root in local coordinates x, y in [-1, 1] of the cell that was asked.
 struct CellHit {
   double t, x, y;

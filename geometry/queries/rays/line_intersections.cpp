@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "geometry/bodies/trims/trim.h"
 #include "geometry/queries/implicit_curves/smooth_parts.h"
 #include "geometry/queries/rays/fitted_pieces.h"
 #include "geometry/queries/rays/line_cells.h"
+#include "geometry/queries/rays/line_group.h"
 #include "geometry/queries/rays/patch_target.h"
 #include "geometry/queries/rays/sampled_extent.h"
 #include "geometry/queries/rays/trimmed_hits.h"
@@ -194,8 +196,16 @@ class JointTarget : public LineTarget {
   void piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const override {
     target(i).piece_hits(pieces_[i].second, line, t, hits);
   }
-  unsigned may_meet(int i, const LineGroup& lines) const override {
-    return target(i).may_meet(pieces_[i].second, lines);
+  void group_hits(int first, int end, const unsigned* asked, const LineGroup& lines, GroupHits& hits) const override {
+    for (int i = first; i < end; ++i) {
+      const int piece = pieces_[i].second;
+      GroupHits found;
+      target(i).group_hits(piece, piece + 1, asked + (i - first), lines, found);
+      for (GroupHit hit : found) {
+        hit.piece = i;
+        hits.add(hit);
+      }
+    }
   }
   bool meets_once(int i, const Vec3& direction) const override {
     return target(i).meets_once(pieces_[i].second, direction);
@@ -266,6 +276,9 @@ class PartsTarget final : public JointTarget {
     for (int k = 0; k < all.size(); ++k)
       if (holds(parts_[target_of(i)], {all[k].u, all[k].v, 0})) hits.add(all[k]);
   }
+  void group_hits(int first, int end, const unsigned* asked, const LineGroup& lines, GroupHits& hits) const override {
+    LineTarget::group_hits(first, end, asked, lines, hits);  // each hit is looked at above
+  }
 
  private:
   bool holds(const SmoothPart& part, const Vec3& uv) const {
@@ -280,6 +293,12 @@ class PartsTarget final : public JointTarget {
 };
 
 }  // namespace
+
+void LineTarget::group_hits(int first, int end, const unsigned* asked, const LineGroup&, GroupHits& hits) const {
+  for (int piece = first; piece < end; ++piece)
+    for (unsigned rest = asked[piece - first]; rest; rest &= rest - 1)
+      hits.add({std::countr_zero(rest), piece, true, {}});
+}
 
 std::unique_ptr<LineTarget> make_line_target(SurfacePtr surface, std::shared_ptr<const TrimRegion> trim,
                                              double min_area) {

@@ -19,6 +19,7 @@
 
 namespace lekalo::geometry {
 
+class GroupHits;
 class LineGroup;
 class TrimRegion;
 
@@ -31,9 +32,9 @@ class LineTarget {
   virtual Box3 piece_bounds(int piece) const = 0;
   // Adds the hits with t in the interval, in natural parameters, inside the domain (and the trims, if any).
   virtual void piece_hits(int piece, const PreparedLine& line, const Interval& t, LineHits& hits) const = 0;
-  // Of lines that are asked together those for which piece_hits must be asked, bit i for line i: the others have no
-  // hits in their ranges.
-  virtual unsigned may_meet(int /*piece*/, const LineGroup&) const { return ~0u; }
+  // Hits of lines that are asked together on the pieces from `first` to before `end`, at most GroupHits::kMostPieces,
+  // in the lines' ranges: line i on the k-th piece if bit i of asked[k] is set. What is not told at once is left open.
+  virtual void group_hits(int first, int end, const unsigned* asked, const LineGroup& lines, GroupHits& hits) const;
   // True if certainly no line of that direction meets the piece twice: a ray that leaves a point of the piece does not
   // come back to it.
   virtual bool meets_once(int, const Vec3&) const { return false; }

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
+#include "geometry/queries/rays/cell_newton.h"
 #include "geometry/queries/rays/line_group.h"
 
 namespace lekalo::geometry {
@@ -172,6 +174,17 @@ Box3 PatchTarget::piece_bounds(int i) const {
   return Box3{box.lo + center, box.hi + center}.inflated(1e-15 * glm::length(center));
 }
 
+LineHit PatchTarget::natural_hit(const Patch& patch, const PatchCell& cell, double foot_point,
+                                 const CellHit& found) const {
+  const CellPlace place = cell.place();
+  const double x = place.x + place.hx * found.x, y = place.y + place.hy * found.y;
+  LineHit hit;
+  hit.t = foot_point + found.t;
+  hit.u = patch.domain.u.clamp(patch.map_u.natural(patch.s.middle() + 0.5 * patch.s.width() * x));
+  hit.v = patch.domain.v.clamp(patch.map_v.natural(patch.t.middle() + 0.5 * patch.t.width() * y));
+  return hit;
+}
+
 void PatchTarget::piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const {
   const Cell& cell = cells_[i];
   const Patch& patch = patches_[cell.patch];
@@ -179,21 +192,49 @@ void PatchTarget::piece_hits(int i, const PreparedLine& line, const Interval& t,
   const LineBasis& basis = line.near(patch.center, foot_point);
   CellHits found;
   intersect(view_of(patch), cell.cell, basis, {t.lo - foot_point, t.hi - foot_point}, found);
-  if (found.size() == 0) return;
-  const CellPlace place = cell.cell.place();
   for (int k = 0; k < found.size(); ++k) {
-    LineHit hit;
-    hit.t = foot_point + found[k].t;
-    const double x = place.x + place.hx * found[k].x, y = place.y + place.hy * found[k].y;
-    hit.u = patch.domain.u.clamp(patch.map_u.natural(patch.s.middle() + 0.5 * patch.s.width() * x));
-    hit.v = patch.domain.v.clamp(patch.map_v.natural(patch.t.middle() + 0.5 * patch.t.width() * y));
+    const LineHit hit = natural_hit(patch, cell.cell, foot_point, found[k]);
     const bool keeps = cell.whole ? t.contains(hit.t) : acceptance_.keeps(hit, t, line.line(), *surface_);
     if (keeps) hits.add(hit);
   }
 }
 
-unsigned PatchTarget::may_meet(int i, const LineGroup& lines) const {
-  return lines.may_meet(cells_[i].cell, patches_[cells_[i].patch].center);
+void PatchTarget::group_hits(int first, int end, const unsigned* asked, const LineGroup& lines, GroupHits& hits) const {
+  std::array<LineGroup::Start, LineGroup::kMost * GroupHits::kMostPieces> starts;
+  size_t count = 0;
+  const auto iterate = [&](const Patch& patch) {
+    std::array<LineGroup::End, LineGroup::kMost * GroupHits::kMostPieces> ends;
+    lines.iterate(view_of(patch), std::span(starts.data(), count), ends.data());
+    for (size_t k = 0; k < count; ++k) {
+      const LineGroup::Start& start = starts[k];
+      GroupHit hit{start.line, start.piece, ends[k].verdict == Verdict::unsure, {}};
+      if (ends[k].verdict == Verdict::none) continue;
+      if (!hit.is_open) {
+        const Cell& cell = cells_[start.piece];
+        hit.hit = natural_hit(patch, cell.cell, lines.foot_point(start.line), ends[k].hit);
+        const Interval t = lines.range(start.line);
+        if (!(cell.whole ? t.contains(hit.hit.t) : acceptance_.keeps(hit.hit, t, lines.line(start.line), *surface_)))
+          continue;
+      }
+      hits.add(hit);
+    }
+    count = 0;
+  };
+  for (int i = first; i < end; ++i) {
+    const Cell& cell = cells_[i];
+    LineGroup::Guesses guesses;
+    unsigned met = lines.may_meet(asked[i - first], cell.cell, patches_[cell.patch].center, guesses);
+    for (; met; met &= met - 1) {
+      const int line = std::countr_zero(met);
+      const Guess guess = guesses.of(line);
+      if (judge(guess, kBorderSlack, kBorderSlack) == Verdict::none) continue;
+      if (is_certain(guess))
+        starts[count++] = {line, i, &cell.cell, guess};
+      else
+        hits.add({line, i, true, {}});
+    }
+    if (count > 0 && (i + 1 == end || cells_[i + 1].patch != cell.patch)) iterate(patches_[cell.patch]);
+  }
 }
 
 bool PatchTarget::meets_once(int i, const Vec3& direction) const {

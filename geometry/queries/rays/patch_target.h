@@ -23,7 +23,7 @@ class PatchTarget final : public LineTarget {
   std::string_view method() const override { return "Bezier pieces"; }
   Box3 piece_bounds(int i) const override;
   void piece_hits(int i, const PreparedLine& line, const Interval& t, LineHits& hits) const override;
-  unsigned may_meet(int i, const LineGroup& lines) const override;
+  void group_hits(int first, int end, const unsigned* asked, const LineGroup& lines, GroupHits& hits) const override;
   bool meets_once(int i, const Vec3& direction) const override;
   SurfaceJet jet_at(int i, double u, double v, const Vec3& near) const override;
   const Surface& surface() const override { return *surface_; }
@@ -51,6 +51,7 @@ class PatchTarget final : public LineTarget {
   class Cutter;
   void cut_all(double min_area);
 
+  LineHit natural_hit(const Patch& patch, const PatchCell& cell, double foot_point, const CellHit& found) const;
   PatchView view_of(const Patch& patch) const {
     return {points_.data() + patch.first_point, patch.degree_u, patch.degree_v};
   }
