@@ -259,7 +259,7 @@ class TileTracer {
     return camera_.lens_ray(x, y, sampler_->stream(shot.x, shot.y, shot.number).next_sobol_pair());
   }
 
-  // The shots' rays are met together, which is faster for meshes; then `use` gets each shot with its sample and whether
+  // The shots' rays are met together, which is faster; then `use` gets each shot with its sample and whether
   // that is finite. Once the tile is given up no more of them.
   template <class Use>
   void take(std::span<const Shot> shots, Exposure& exposure, const Use& use) const {

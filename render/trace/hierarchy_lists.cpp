@@ -16,6 +16,8 @@ constexpr size_t kPacket = PacketQuery::kMost;
 // Rays are taken through the hierarchy together if they begin this near to each other, in radii of the sphere, and
 // their directions differ by no more; else one after the other.
 constexpr float kTogether = 0.1f;
+// The same for pieces, of which more is done for all rays at once.
+constexpr float kTogetherByPieces = 0.3f;
 
 float largest(float x, float y, float z) { return std::max(std::max(std::abs(x), std::abs(y)), std::abs(z)); }
 
@@ -28,7 +30,8 @@ struct Packet {
   bool together = true;
   double start[kPacket], slack[kPacket];  // as in Query
 
-  Packet(const Hierarchy::Parts& p, std::span<const Ray> from) {
+  // `most`: by which rays that are taken together differ.
+  Packet(const Hierarchy::Parts& p, std::span<const Ray> from, float most = kTogether) {
     RTCRay8& to = rays.ray;
     float spread = 0;
     size_t first = kPacket;  // that is not empty
@@ -60,7 +63,7 @@ struct Packet {
       spread = std::max(spread, std::max(turn, per_radius * shift));
     }
     any = first < kPacket;
-    together = spread <= kTogether;
+    together = spread <= most;
     rtcInitIntersectContext(&context);
     context.flags = together ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   }
@@ -137,12 +140,12 @@ class PiecePackets {
   static bool turn_apart(std::span<const Ray> rays) {
     return std::any_of(rays.begin() + 1, rays.end(), [&](const Ray& ray) {
       const Vec3 turn = glm::abs(ray.direction - rays[0].direction);
-      return std::max(std::max(turn.x, turn.y), turn.z) > 2 * kTogether;
+      return std::max(std::max(turn.x, turn.y), turn.z) > 2 * kTogetherByPieces;
     });
   }
   bool trace(std::span<const Ray> rays, Hit* hits) {
     if (!parts_.grouped_pieces || turn_apart(rays)) return false;
-    Packet packet(parts_, rays);
+    Packet packet(parts_, rays, kTogetherByPieces);
     if (!packet.together) return false;
     queries_.leave = std::any_of(rays.begin(), rays.end(), [](const Ray& ray) { return ray.left_instance >= 0; });
     for (size_t i = 0; i < rays.size(); ++i) {

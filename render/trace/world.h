@@ -56,9 +56,9 @@ class World final : public CurvatureSource {
   // The nearest hit with t in [ray.t_min, ray.t_max]; ties by (object, face, piece). `among`: for rays that end in the
   // box that obstacles() was asked for.
   bool nearest(const Ray& ray, Hit& hit, const Obstacles& among = {}) const;
-  // The same for as many rays as hits; a hit's instance is -1 where its ray meets nothing. Triangles of meshes are
-  // found faster so, most of all if neighbours in the list go the same way. Between triangles that float cannot tell
-  // apart the choice may be another than for the ray alone.
+  // The same for as many rays as hits; a hit's instance is -1 where its ray meets nothing. Triangles of meshes, and
+  // pieces of surfaces, are found faster so if neighbours in the list go the same way. Between triangles that float
+  // cannot tell apart the choice may be another than for the ray alone.
   void nearest(std::span<const Ray> rays, std::span<Hit> hits) const;
   // True if anything that shadow rays see lies between t_min and t_max.
   bool occluded(const Ray& ray) const;
@@ -66,7 +66,7 @@ class World final : public CurvatureSource {
   // ends in the box. Pays for several rays.
   Obstacles obstacles(const Ray& from, const geometry::Box3& to) const;
   bool occluded(const Ray& ray, const Obstacles& among) const;
-  // The same for as many rays as answers, faster for meshes as above.
+  // The same for as many rays as answers, faster as above.
   void occluded(std::span<const Ray> rays, const Obstacles& among, std::span<bool> occluded) const;
   // True if lists of rays are found faster than their rays one by one.
   bool gains_by_lists() const;
