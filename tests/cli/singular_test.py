@@ -5,7 +5,7 @@ import re
 import unittest
 import xml.etree.ElementTree as tree
 
-from program import ProgramTest, USAGE
+from program import SCENE_ERROR, ProgramTest, USAGE
 
 NUMBER = r"-?\d+(?:\.\d+)?"
 
@@ -214,6 +214,40 @@ geometry:
             found = self.json_of("measure", "roots.yaml", name, "--to", f"{to[0]},{to[1]},0")
             self.assertAlmostEqual(found["distance"], math.dist(to, near), delta=1e-12)
             self.assertEqual(len(found["feet"]), 1)
+
+    def test_a_geodesic_without_end_is_refused(self):
+        self.write("long.yaml", """lekalo: 1
+geometry:
+  t: { type: torus_surface, major_radius: 3, minor_radius: 1 }
+  g: { type: geodesic_curve, of: t, from: [0, 0], direction: 30, length: 1e5 }
+""")
+        out, errors = self.run_program("check", "long.yaml", code=SCENE_ERROR)
+        self.assertIn("long.yaml:4:", errors)
+        self.assertIn("longer than 1000 times", errors)
+
+    def test_very_long_conics_are_no_parabolas(self):
+        self.write("long.yaml", """lekalo: 1
+geometry:
+  e: { type: ellipse, semi_axes: [1000000, 1] }
+  f: { type: ellipse, semi_axes: [1, 1000000] }
+  h: { type: hyperbola, semi_axes: [1000000, 1], range: [-1, 1] }
+""")
+        for name, kind, axis in (("e", "ellipse", [1, 0, 0]), ("f", "ellipse", [0, 1, 0]),
+                                 ("h", "hyperbola", [1, 0, 0])):
+            found = self.json_of("measure", "long.yaml", name)
+            self.assertEqual((found["conic"], found["half_axes"]), (kind, [1e6, 1]), name)
+            self.assert_near(found["axis"], axis, 0)
+
+    def polar(r, turns):
+            return [r * math.cos(2 * math.pi * turns), r * math.sin(2 * math.pi * turns)]
+        points = [polar(1 + k / 1000, k / 50) for k in range(991)]
+        points += [polar(1.99 - 0.1 * k, 990 / 50) for k in range(1, 15)]
+        self.write("spline.yaml", f"lekalo: 1\ngeometry: {{ s: {{ type: spline_curve, points: {points} }} }}\n")
+        found = self.json_of("measure", "spline.yaml", "s", "--self-intersection")
+        self.assertEqual(len(found["points"]), 19)
+        self.assertEqual(found["common"], [])
+        for k, point in enumerate(sorted(found["points"], key=lambda one: one["t"])):
+            self.assertAlmostEqual(math.hypot(*point["point"][:2]), 1.04 + 0.05 * k, delta=5e-3)
 
     def test_sections_through_a_tip(self):
         """A cone by its formula: straight lines through the tip, by a whole plane and by one with sides; near the tip

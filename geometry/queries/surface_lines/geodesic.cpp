@@ -5,6 +5,9 @@
 
 namespace lekalo::geometry {
 
+// So many sizes of the surface a geodesic is followed: some seconds.
+static constexpr double kMaxSizes = 1000;
+
 GeodesicLaw::State GeodesicLaw::start(const Surface& surface, const Vec2& uv, double angle) {
   const SurfaceJet at = surface.evaluate(uv.x, uv.y, 1);
   const Vec3 x = glm::normalize(at.du()), normal = glm::normalize(glm::cross(at.du(), at.dv()));
@@ -87,13 +90,16 @@ SurfaceLine geodesic(const Surface& surface, const Vec2& start, double angle, do
   check_place(surface, start, "from");
   const GeodesicLaw law;
   FlowOptions options;
-  options.length = length;
   options.size = std::min(line_size(surface, length), length);
+  options.length = std::min(length, kMaxSizes * options.size);
   const auto run = [&] { return GeodesicFlow(surface, law, options).run(GeodesicLaw::start(surface, start, angle)); };
   GeodesicFlow::Result flow = run();
   const auto place = [&] { return fmt::format("({:.6g}, {:.6g})", flow.end[0], flow.end[1]); };
   if (flow.why == LineEnd::jagged)
     throw FieldError("of", "the surface is not smooth enough for a geodesic at (u, v) = " + place());
+  if (flow.why == LineEnd::length && options.length < length)
+    throw FieldError("length", fmt::format("the geodesic gets longer than {:g} times the surface's size", kMaxSizes),
+                     fmt::format("at most {:.6g} here", options.length));
   if (flow.parts.empty())
     throw FieldError("from", "the geodesic leaves the surface's domain at once", "turn its direction");
   options.longest_step *= 0.1;
