@@ -98,8 +98,11 @@ bool has_width(const std::array<Interval, 2>& ranges) { return ranges[0].width()
 ordered_json end_row(const DistancePlace& place, bool has_ranges, const std::array<Interval, 2>& ranges) {
   ordered_json row = place_row(place);
   if (!has_ranges) return row;
-  if (row.contains("t")) row["t_range"] = range(ranges[0]);
-  if (row.contains("u")) row["u_range"] = range(ranges[0]), row["v_range"] = range(ranges[1]);
+  // A range without end has no numbers.
+  const auto put = [&](const char* name, const Interval& reach) {
+    if (row.contains(name) && reach.width() < geometry::kInfinity) row[std::string(name) + "_range"] = range(reach);
+  };
+  put("t", ranges[0]), put("u", ranges[0]), put("v", ranges[1]);
   return row;
 }
 

@@ -63,6 +63,7 @@ struct CurveProjector::Prepared {
     int degree;  // 0 for a piece that is not rational
     std::optional<FootPointPolynomial> polynomial;
     CurveJet begin, end;
+    Box3 box;
   };
   CurvePtr curve;
   Interval domain;
@@ -77,11 +78,12 @@ struct CurveProjector::Prepared {
              (curve->period() > 0 && std::abs(curve->period() - domain.width()) <= kDomainSlack * domain.width());
     for (const CurvePiece& piece : given_pieces) {
       Piece& own =
-          pieces.emplace_back(Piece{piece.domain, piece.map, piece.is_rational() ? piece.degree() : 0, {}, {}, {}});
+          pieces.emplace_back(Piece{piece.domain, piece.map, piece.is_rational() ? piece.degree() : 0, {}, {}, {}, {}});
       if (own.degree > 0 && own.degree <= FootPointPolynomial::kMaxDegree)
         own.polynomial.emplace(piece.points, Vec3(piece.points[0]) / piece.points[0].w);
       own.begin = jet_at_end(piece.domain, piece.domain.lo);
       own.end = jet_at_end(piece.domain, piece.domain.hi);
+      own.box = curve->enclose(piece.domain, 0).d[0];
     }
   }
 
@@ -101,12 +103,15 @@ template <class Prepared>
 class CurveProjection {
  public:
   using Piece = typename Prepared::Piece;
-  CurveProjection(const Vec3& p, const Prepared& on) : p_(p), on_(on), domain_(on.domain), size_(on.size) {}
+  CurveProjection(const Vec3& p, const Prepared& on, double within)
+      : p_(p), on_(on), within_(within), domain_(on.domain), size_(on.size) {}
 
   CurveFootPoints run() {
-    for (const Piece& piece : on_.pieces) search(piece);
+    for (const Piece& piece : on_.pieces)
+      if (within_ == kInfinity || piece.box.inflated(within_).contains(p_)) search(piece);
     for (const Interval& arc : result_.arcs) add(arc.middle(), FootPointKind::degenerate);
     add_joints();
+    std::erase_if(result_.foot_points, [&](const CurveFootPoint& one) { return one.distance > within_; });
     std::sort(result_.foot_points.begin(), result_.foot_points.end(),
               [](const CurveFootPoint& a, const CurveFootPoint& b) {
                 return a.distance != b.distance ? a.distance < b.distance : a.t < b.t;
@@ -242,6 +247,7 @@ class CurveProjection {
 
   const Vec3 p_;
   const Prepared& on_;
+  const double within_;
   const Interval domain_;
   const double size_;
   CurveFootPoints result_;
@@ -253,8 +259,9 @@ CurveProjector::CurveProjector(CurvePtr curve, std::vector<CurvePiece> pieces)
     : prepared_(std::make_shared<Prepared>(std::move(curve), pieces)) {}
 CurveProjector::CurveProjector(CurvePtr curve) : CurveProjector(curve, curve->pieces()) {}
 
-CurveFootPoints CurveProjector::foot_points(const Vec3& point) const {
-  return CurveProjection(point, *prepared_).run();
+CurveFootPoints CurveProjector::foot_points(const Vec3& point) const { return foot_points(point, kInfinity); }
+CurveFootPoints CurveProjector::foot_points(const Vec3& point, double within) const {
+  return CurveProjection(point, *prepared_, within).run();
 }
 
 CurveFootPoints project(const Vec3& point, const Curve& curve) {

@@ -48,6 +48,8 @@ class CurveProjector {
   // With pieces that it does not know itself.
   CurveProjector(CurvePtr curve, std::vector<CurvePiece> pieces);
   CurveFootPoints foot_points(const Vec3& point) const;
+  // Those that are no farther than `within`: pieces all of which are farther are not searched.
+  CurveFootPoints foot_points(const Vec3& point, double within) const;
 
  private:
   struct Prepared;
@@ -68,7 +70,8 @@ struct SurfaceFootPoints {
   std::vector<Rectangle> regions;
 };
 // In the domain of the surface; at a step its edges are those of both sides. Throws std::invalid_argument for an
-// unbounded one that is no plane, and where its steps are not all known. Safe to use from many threads.
+// unbounded one that is no plane, cylinder or cone, and where its steps are not all known. Safe to use from many
+// threads.
 class SurfaceProjector {
  public:
   explicit SurfaceProjector(SurfacePtr surface);
@@ -78,6 +81,7 @@ class SurfaceProjector {
   struct Prepared;
   std::shared_ptr<const Prepared> prepared_;
   std::shared_ptr<const Plane> plane_;             // an unbounded one instead
+  SurfacePtr unbounded_;                           // another
   std::shared_ptr<const ProjectorOfParts> parts_;  // of one with kinks or steps
 };
 SurfaceFootPoints project(const Vec3& point, const Surface& surface);

@@ -8,9 +8,11 @@
 #include "geometry/curves/operations/smooth_pieces.h"
 #include "geometry/numerics/root_search.h"
 #include "geometry/queries/closest/closest_point.h"
+#include "geometry/queries/closest/degenerate_foot_point.h"
 #include "geometry/queries/closest/foot_point_polynomials.h"
 #include "geometry/queries/closest/nearest_on_surface.h"
 #include "geometry/queries/closest/parts_projection.h"
+#include "geometry/queries/closest/unbounded_surfaces.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "geometry/tolerances.h"
 
@@ -26,6 +28,8 @@ constexpr double kNoDerivative = 1e-9;
 constexpr double kAtPole = 1e-6;
 // Foot points nearer than this part of the size are one, seen from both sides of a seam.
 constexpr double kSameFootPoint = 1e-11;
+// Of products of the way to the surface and its derivatives.
+constexpr double kRounding = 1e-15;
 // A point is on a line of the surface: rounding of the coordinates.
 constexpr double kOnLine = 1e-14;
 
@@ -331,17 +335,21 @@ class SurfaceProjection {
     RootSearchOptions<2, 2> options;
     options.least = {kMinBox * domain_.u.width(), kMinBox * domain_.v.width()};
     options.slack = {kBorderSlack * domain_.u.width(), kBorderSlack * domain_.v.width()};
+    // Many foot points on a border, as those of a torus's middle at v = pi, may lie beyond it by its rounding.
+    const double away = glm::length(p_ - surface_.point(part.u.middle(), part.v.middle()));
+    const double rounding = kRounding * size_ * (size_ + away);
+    options.tolerance = {rounding / domain_.u.width(), rounding / domain_.v.width()};
     const auto found = search_roots<2, 2>(system, ParameterBox<2>{part.u, part.v}, options);
     for (const auto& at : found.isolated)
       if (!is_singular(system.jet(at[0], at[1]))) add(at[0], at[1], kind_of(system.evaluate(at)));
     const DegenerateEdges& edges = on_.edges;
     for (const auto& box : found.open) {
-      const double u = box[0].middle(), v = box[1].middle();
       if (is_at_pole(box[0], domain_.u, edges.u_min, edges.u_max) ||
           is_at_pole(box[1], domain_.v, edges.v_min, edges.v_max))
         continue;
       if (box[0].width() > 1e3 * options.least[0] || box[1].width() > 1e3 * options.least[1])
         result_.regions.push_back({box[0], box[1]});
+      const auto [u, v] = degenerate_foot_point(system, piece, box, {domain_.u.width(), domain_.v.width()});
       add(u, v, FootPointKind::degenerate);
     }
   }
@@ -422,12 +430,18 @@ SurfaceProjector::SurfaceProjector(SurfacePtr surface) {
     prepared_ = std::make_shared<Prepared>(std::move(surface));
   else if (const auto plane = std::dynamic_pointer_cast<const Plane>(surface); plane && plane->is_whole())
     plane_ = plane;
+  else if (part_near(*surface, {Vec3(0), Vec3(0)}))
+    unbounded_ = surface;
   else
     throw std::invalid_argument("the surface is unbounded: give it a domain to project on");
 }
 
 SurfaceFootPoints SurfaceProjector::foot_points(const Vec3& point) const {
   if (parts_) return parts_->foot_points(point);
+  if (unbounded_) {
+    const SurfacePtr part = part_near(*unbounded_, {point, point});
+    return SurfaceProjection(point, PreparedSurface(part)).run();
+  }
   if (!plane_) return SurfaceProjection(point, *prepared_).run();
   const Vec3 local = plane_->frame().to_local_point(point);
   return {{{local.x, local.y, plane_->point(local.x, local.y), std::abs(local.z), FootPointKind::minimum}}, {}};

@@ -7,6 +7,7 @@
 #include "geometry/queries/closest/distance_neighbours.h"
 #include "geometry/queries/closest/distance_pairs.h"
 #include "geometry/queries/closest/non_isolated_minima.h"
+#include "geometry/queries/closest/unbounded_surfaces.h"
 #include "geometry/queries/implicit_curves/smooth_parts.h"
 #include "geometry/tolerances.h"
 
@@ -323,6 +324,9 @@ static void demand_no_steps(const Distant& of) {
 
 Distance distance(const Distant& a, const Distant& b, DistanceMinima wanted) {
   demand_no_steps(a), demand_no_steps(b);
+  const auto *first = std::get_if<const Surface*>(&a), *second = std::get_if<const Surface*>(&b);
+  if (first && second && !(*first)->bounded() && !(*second)->bounded())
+    if (auto known = unbounded_distance(**first, **second)) return *std::move(known);
   return DistanceQuery(a, b, wanted == DistanceMinima::nearest).run();
 }
 

@@ -36,7 +36,8 @@ struct DistanceMinimum {
   DistancePlace a, b;
   double distance = 0;
   // False where places beside these are as near: parallel lines, coaxial circles, concentric spheres. These reach
-  // within the ranges of t, or of u and v, on each (one place: a range of no width; the ranges of a point are not set).
+  // within the ranges of t, or of u and v, on each (one place: a range of no width; the ranges of a point are not set;
+  // of unbounded surfaces they may be without end).
   bool isolated = true;
   std::array<Interval, 2> range_a{}, range_b{};
 };
@@ -51,8 +52,8 @@ struct Distance {
 
 // All local minima, or those that are as near as the nearest (which takes less time). Two surfaces or bodies that meet
 // have one minimum, a place where they do: it is the only one listed. A body is its surface: a thing in its inside has
-// a distance from it. Throws std::invalid_argument for an unbounded surface that is no plane, and for unbounded planes
-// that are parallel.
+// a distance from it. Of unbounded surfaces planes, cylinders and cones have distances from what is bounded, and whole
+// planes and circular cylinders from each other: throws std::invalid_argument for others.
 enum class DistanceMinima { all, nearest };
 Distance distance(const Distant& a, const Distant& b, DistanceMinima wanted = DistanceMinima::all);
 

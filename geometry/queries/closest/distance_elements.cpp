@@ -4,11 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "geometry/box_corners.h"
 #include "geometry/curves/operations/parameter_line.h"
 #include "geometry/curves/operations/smooth_pieces.h"
 #include "geometry/queries/closest/face_adjacency.h"
-#include "geometry/surfaces/analytic/plane.h"
+#include "geometry/queries/closest/unbounded_surfaces.h"
 #include "geometry/tolerances.h"
 
 namespace lekalo::geometry {
@@ -308,19 +307,6 @@ class Gathering {
   std::vector<std::shared_ptr<FaceAdjacency>> sheets_;  // of the faces of a body
 };
 
-// What of an unbounded plane can be nearest to a thing in the box: the foot points of its points, and a border around.
-Rectangle cut_near(const Plane& plane, const Box3& box) {
-  Rectangle cut{{kInfinity, -kInfinity}, {kInfinity, -kInfinity}};
-  for (const Vec3& corner : corners(box)) {
-    const Vec3 local = plane.frame().to_local_point(corner);
-    cut = {hull(cut.u, Interval(local.x)), hull(cut.v, Interval(local.y))};
-  }
-  const double more = std::max(box.diameter(), 1e-3 * glm::length(box.center() - plane.frame().origin)) + 1e-300;
-  const Rectangle domain = plane.domain();
-  return {{domain.u.clamp(cut.u.lo - more), domain.u.clamp(cut.u.hi + more)},
-          {domain.v.clamp(cut.v.lo - more), domain.v.clamp(cut.v.hi + more)}};
-}
-
 }  // namespace
 
 std::array<double, 2> DistanceStep::moved(double by) const {
@@ -394,15 +380,12 @@ DistanceElements distance_elements(const Distant& thing, const Box3& near) {
     all.add_body(**body);
   } else {
     const Surface& surface = *std::get<const Surface*>(thing);
-    const auto* plane = dynamic_cast<const Plane*>(&surface);
-    if (!surface.bounded() && !plane)
-      throw std::invalid_argument("the surface is unbounded: give it a domain to measure from");
-    if (!surface.bounded() && !near.bounded())
-      throw std::invalid_argument("both are unbounded: give one of the planes a domain");
-    if (surface.bounded())
-      all.add_surface(SurfacePtr(SurfacePtr(), &surface), surface.domain());
-    else
-      all.add_surface(std::make_shared<Plane>(plane->frame(), cut_near(*plane, near)), plane->domain());
+    const SurfacePtr part = surface.bounded() ? SurfacePtr(SurfacePtr(), &surface)
+                            : near.bounded()
+                                ? part_near(surface, near)
+                                : throw std::invalid_argument("both are unbounded: give one of them a domain");
+    if (!part) throw std::invalid_argument("the surface is unbounded: give it a domain to measure from");
+    all.add_surface(part, surface.domain());
   }
   return elements;
 }

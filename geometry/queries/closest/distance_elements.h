@@ -64,7 +64,7 @@ struct DistanceElement {
 
 using DistanceElements = std::vector<std::unique_ptr<DistanceElement>>;
 
-// `near`: an unbounded plane is cut to what can be nearest to a thing in that box.
+// `near`: an unbounded surface is cut to what can be nearest to a thing in that box.
 DistanceElements distance_elements(const Distant& thing, const Box3& near);
 
 Box3 bounds(const Distant& thing);

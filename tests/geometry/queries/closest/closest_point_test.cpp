@@ -389,5 +389,13 @@ TEST(ClosestPointOnSurface, OfPointsOnItsBordersIsThere) {
   }
 }
 
+// The middle of a torus has a circle of foot points, of which the search finds boxes 2e-5 wide.
+TEST(ClosestPointOnSurface, OfPointsOnTheAxisOfATorusIsExact) {
+  const TorusSurface torus(Frame{}, 3, 1);
+  for (const double z : {0.0, 0.5, -2.0, 7.0})
+    EXPECT_NEAR(project({0, 0, z}, torus).foot_points.front().distance, std::hypot(3, z) - 1, 2e-15);
+  EXPECT_NEAR(project({0, 3, 0}, torus).foot_points.front().distance, 1, 4e-16);
+}
+
 }  // namespace
 }  // namespace lekalo::geometry::closest_point_test
