@@ -238,7 +238,9 @@ geometry:
             self.assertEqual((found["conic"], found["half_axes"]), (kind, [1e6, 1]), name)
             self.assert_near(found["axis"], axis, 0)
 
-    def polar(r, turns):
+    def test_a_spline_through_a_thousand_points_and_itself(self):
+        """A spiral of 50 points a turn, from whose end a way straight to the middle crosses the 19 turns before."""
+        def polar(r, turns):
             return [r * math.cos(2 * math.pi * turns), r * math.sin(2 * math.pi * turns)]
         points = [polar(1 + k / 1000, k / 50) for k in range(991)]
         points += [polar(1.99 - 0.1 * k, 990 / 50) for k in range(1, 15)]

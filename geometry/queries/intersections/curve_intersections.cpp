@@ -93,15 +93,18 @@ class CurvePair {
     if (!are_near(box_a_, box_b_, tolerance_)) return {};
     if (auto known = line_conic_intersections(a_, b_, tolerance_)) return *std::move(known);
     pieces_a_ = a_.pieces(), pieces_b_ = b_.pieces();
+    on_a_.emplace(CurvePtr(CurvePtr(), &a_), pieces_a_), on_b_.emplace(CurvePtr(CurvePtr(), &b_), pieces_b_);
     find_common();
+    std::vector<std::pair<Interval, Box3>> parts_of_a;
+    for (const CurvePiece& of_a : pieces_a_)
+      for (const Interval& part : without(of_a.domain, parts_)) parts_of_a.emplace_back(part, a_.enclose(part, 0).d[0]);
     for (const CurvePiece& of_b : pieces_b_) {
       const Box3 box = b_.enclose(of_b.domain, 0).d[0];
-      for (const CurvePiece& of_a : pieces_a_)
-        for (const Interval& part : without(of_a.domain, parts_))
-          if (are_near(a_.enclose(part, 0).d[0], box, tolerance_)) search({a_, b_, part, of_b.domain});
+      for (const auto& [part, box_of_part] : parts_of_a)
+        if (are_near(box_of_part, box, tolerance_)) search({a_, b_, part, of_b.domain});
     }
     const auto are_one = [&](const CurveIntersection& one, const CurveIntersection& other, double by) {
-      return holds_between(a_, one.s, other.s, [&](double s) { return place_on(b_, a_.point(s), by).has_value(); });
+      return holds_between(a_, one.s, other.s, [&](double s) { return place_on(*on_b_, a_.point(s), by).has_value(); });
     };
     tell_contacts_from_crossings(result_.points, tolerance_, rounding_, is_contact, are_one);
     std::sort(result_.points.begin(), result_.points.end(), [](const CurveIntersection& x, const CurveIntersection& y) {
@@ -112,42 +115,42 @@ class CurvePair {
 
  private:
   // The foot point of a point if it lies on the curve.
-  static std::optional<double> place_on(const Curve& curve, const Vec3& p, double tolerance) {
-    const CurveFootPoints found = project(p, curve);
-    if (found.foot_points.empty() || found.foot_points[0].distance > tolerance) return std::nullopt;
-    return found.foot_points[0].t;
+  static std::optional<double> place_on(const CurveProjector& curve, const Vec3& p, double tolerance) {
+    const CurveFootPoints found = curve.foot_points(p, tolerance);
+    return found.foot_points.empty() ? std::nullopt : std::optional(found.foot_points[0].t);
   }
-  std::optional<double> place_on(const Curve& curve, const Vec3& p) const { return place_on(curve, p, tolerance_); }
+  std::optional<double> place_on_a(const Vec3& p) const { return place_on(*on_a_, p, tolerance_); }
+  std::optional<double> place_on_b(const Vec3& p) const { return place_on(*on_b_, p, tolerance_); }
 
   // Curves can part only at an end of a smooth piece of either.
   void find_common() {
     std::vector<double> places;
     const auto add = [&](const Vec3& p, double s) {
-      if (box_b_.inflated(tolerance_).contains(p) && place_on(b_, p)) places.push_back(s);
+      if (box_b_.inflated(tolerance_).contains(p) && place_on_b(p)) places.push_back(s);
     };
     for (const CurvePiece& piece : pieces_a_) add(a_.point(piece.domain.lo), piece.domain.lo);
     add(a_.point(a_.domain().hi), a_.domain().hi);
     const auto add_of_b = [&](double t) {
       const Vec3 p = b_.point(t);
       if (!box_a_.inflated(tolerance_).contains(p)) return;
-      for (const CurveFootPoint& foot_point : project(p, a_).foot_points)
-        if (foot_point.distance <= tolerance_) places.push_back(foot_point.t);
+      for (const CurveFootPoint& foot_point : on_a_->foot_points(p, tolerance_).foot_points)
+        places.push_back(foot_point.t);
     };
     for (const CurvePiece& piece : pieces_b_) add_of_b(piece.domain.lo);
     add_of_b(b_.domain().hi);
     parts_ = common_parts(places, least_ * a_.domain().width(),
-                          [&](double s) { return place_on(b_, a_.point(s)).has_value(); });
+                          [&](double s) { return place_on_b(a_.point(s)).has_value(); });
     for (const Interval& part : parts_) {
       CommonPart common{part, 0, 0};
       // Along the second curve step by step, across its seam.
       const double turn = b_.period() > 0 ? b_.period() : b_.domain().width();
-      double t = place_on(b_, a_.point(part.lo)).value_or(0);
-      const double first = *place_on(b_, a_.point(part.lo + part.width() / kPlacesOfCommonPart));
+      double t = place_on_b(a_.point(part.lo)).value_or(0);
+      const double first = *place_on_b(a_.point(part.lo + part.width() / kPlacesOfCommonPart));
       // An end on the seam is on that side of it where the part goes.
       if (b_.is_closed() && std::abs(first - t) > 0.5 * turn) t += first > t ? turn : -turn;
       common.begin = t;
       for (int i = 1; i <= kPlacesOfCommonPart; ++i) {
-        double next = place_on(b_, a_.point(part.lo + part.width() * i / kPlacesOfCommonPart)).value_or(t);
+        double next = place_on_b(a_.point(part.lo + part.width() * i / kPlacesOfCommonPart)).value_or(t);
         if (b_.is_closed()) next += turn * std::round((t - next) / turn);
         t = next;
       }
@@ -183,10 +186,10 @@ class CurvePair {
     const auto is_near = [&](int i, double end) { return end >= box[i].lo - reach[i] && end <= box[i].hi + reach[i]; };
     for (const double s : {system.piece_a.lo, system.piece_a.hi})
       if (is_near(0, s))
-        if (const auto t = place_on(b_, a_.point(s)); t && is_near(1, *t)) add({s, *t}, true);
+        if (const auto t = place_on_b(a_.point(s)); t && is_near(1, *t)) add({s, *t}, true);
     for (const double t : {system.piece_b.lo, system.piece_b.hi})
       if (is_near(1, t))
-        if (const auto s = place_on(a_, b_.point(t)); s && is_near(0, *s)) add({*s, t}, true);
+        if (const auto s = place_on_a(b_.point(t)); s && is_near(0, *s)) add({*s, t}, true);
   }
 
   // False if the curves are farther from each other there than the tolerance.
@@ -211,6 +214,7 @@ class CurvePair {
   double rounding_ = 0;   // likewise: what it leaves between curves that meet
   double least_ = 0;      // part of a domain
   std::vector<CurvePiece> pieces_a_, pieces_b_;
+  std::optional<CurveProjector> on_a_, on_b_;
   std::vector<Interval> parts_;  // of the first, common
   CurveIntersections result_;
 };

@@ -212,7 +212,7 @@ inline bool is_within(const std::vector<Interval>& parts, double t, double by) {
 // A place of the parameters of a curve, or both sides of its seam.
 inline bool is_one_place(const Curve& curve, double a, double b, double near) {
   const double width = curve.domain().width(), apart = std::abs(a - b);
-  return apart <= near || ((curve.is_closed() || curve.period() > 0) && apart >= width - near);
+  return apart <= near || (apart >= width - near && (curve.period() > 0 || curve.is_closed()));
 }
 
 }  // namespace lekalo::geometry

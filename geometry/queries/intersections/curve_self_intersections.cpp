@@ -115,7 +115,11 @@ struct StopSystem {
 
 class SelfIntersections {
  public:
-  SelfIntersections(const Curve& curve, double tolerance) : curve_(curve), domain_(curve.domain()) {
+  SelfIntersections(const Curve& curve, double tolerance)
+      : curve_(curve),
+        domain_(curve.domain()),
+        projector_(CurvePtr(CurvePtr(), &curve)),
+        is_closed_(curve.is_closed() || (curve.period() > 0 && domain_.width() >= curve.period())) {
     const Box3 box = bounds(curve);
     tolerance_ = tolerance * std::max(box.diameter(), 1e-300);
     rounding_ = rounding_in(box);
@@ -129,7 +133,7 @@ class SelfIntersections {
     cut();
     for (size_t a = 0; a < parts_.size(); ++a)
       for (size_t b = a; b < parts_.size(); ++b)
-        if (!is_common(parts_[a], parts_[b])) meet(a, b);
+        if (may_meet(a, b) && !is_common(parts_[a], parts_[b])) meet(a, b);
     tell_contacts_from_crossings(
         result_.points, tolerance_, rounding_,
         [](const CurveSelfIntersection& one) { return one.kind == SelfIntersectionKind::contact; },
@@ -146,7 +150,6 @@ class SelfIntersections {
 
  private:
   double near() const { return 4 * least_; }
-  bool is_closed() const { return curve_.is_closed() || (curve_.period() > 0 && domain_.width() >= curve_.period()); }
 
   // Where r' vanishes, inside of smooth pieces or at their ends.
   void find_stops() {
@@ -166,8 +169,8 @@ class SelfIntersections {
   std::vector<double> others_at(double s) const { return others_at(s, tolerance_); }
   std::vector<double> others_at(double s, double tolerance) const {
     std::vector<double> places;
-    for (const CurveFootPoint& foot_point : project(curve_.point(s), curve_).foot_points)
-      if (foot_point.distance <= tolerance && !is_one(foot_point.t, s)) places.push_back(foot_point.t);
+    for (const CurveFootPoint& foot_point : projector_.foot_points(curve_.point(s), tolerance).foot_points)
+      if (!is_one(foot_point.t, s)) places.push_back(foot_point.t);
     return places;
   }
 
@@ -199,14 +202,13 @@ class SelfIntersections {
         const double share = static_cast<double>(i) / kPlacesOfCommonPart;
         const double s = part.middle() + (forwards ? share : -share) * part.width();
         double next = kInfinity;
-        for (const CurveFootPoint& foot_point : project(curve_.point(s), curve_).foot_points) {
-          if (foot_point.distance > tolerance_) continue;
+        for (const CurveFootPoint& foot_point : projector_.foot_points(curve_.point(s), tolerance_).foot_points) {
           if (2 * i < kPlacesOfCommonPart && is_one(foot_point.t, s)) continue;
           if (std::abs(foot_point.t - at) < std::abs(next - at)) next = foot_point.t;
           // A foot point on the seam of a closed curve is at both ends.
           const double other_end =
               foot_point.t + (foot_point.t < domain_.middle() ? domain_.width() : -domain_.width());
-          if (is_closed() && std::abs(domain_.clamp(other_end) - other_end) <= near() &&
+          if (is_closed_ && std::abs(domain_.clamp(other_end) - other_end) <= near() &&
               std::abs(other_end - at) < std::abs(next - at))
             next = domain_.clamp(other_end);
         }
@@ -243,7 +245,7 @@ class SelfIntersections {
     for (const CommonPart& common : result_.common)
       cuts.insert(cuts.end(), {common.s.lo, common.s.hi, common.begin, common.end});
     const std::vector<CurvePiece> pieces = curve_.pieces();
-    if (is_closed() && pieces.size() < 3)
+    if (is_closed_ && pieces.size() < 3)
       for (const CurvePiece& piece : pieces)
         for (const double share : {0.31, 0.64}) cuts.push_back(piece.domain.lo + share * piece.domain.width());
     std::sort(cuts.begin(), cuts.end());
@@ -253,16 +255,24 @@ class SelfIntersections {
         if (at > from + near() && at < piece.domain.hi - near()) parts_.push_back({from, at}), from = at;
       parts_.push_back({from, piece.domain.hi});
     }
+    for (const Interval& part : parts_) boxes_.push_back(curve_.enclose(part, 0).d[0]);
+  }
+
+  // Parts that follow each other, the last and the first of a closed curve too, are searched wherever they lie.
+  bool follow_each_other(size_t a, size_t b) const {
+    return b <= a + 1 || (is_closed_ && a == 0 && b + 1 == parts_.size());
+  }
+  bool may_meet(size_t a, size_t b) const {
+    return follow_each_other(a, b) || are_near(boxes_[a], boxes_[b], tolerance_);
   }
 
   void meet(size_t a, size_t b) {
     const Interval &first = parts_[a], &second = parts_[b];
     if (a == b) return search(QuotientSystem{curve_, first, second}, first, second, tolerance_ / domain_.width());
     if (b == a + 1) return search(joined(first, second, 0), first, second, tolerance_ / domain_.width());
-    if (is_closed() && a == 0 && b + 1 == parts_.size())
+    if (is_closed_ && a == 0 && b + 1 == parts_.size())
       return search(joined(second, first, domain_.width()), second, first, tolerance_ / domain_.width());
-    if (are_near(curve_.enclose(first, 0).d[0], curve_.enclose(second, 0).d[0], tolerance_))
-      search(PairSystem{curve_, curve_, first, second}, first, second, tolerance_);
+    search(PairSystem{curve_, curve_, first, second}, first, second, tolerance_);
   }
 
   QuotientSystem joined(const Interval& first, const Interval& second, double turn) const {
@@ -308,7 +318,7 @@ class SelfIntersections {
   bool may_be_cusp(const ParameterBox<2>& box) const {
     const double by = 2 * least_;
     return (box[0].lo - by <= box[1].hi && box[1].lo - by <= box[0].hi) ||
-           (is_closed() && box[0].hi >= domain_.hi - by && box[1].lo <= domain_.lo + by);
+           (is_closed_ && box[0].hi >= domain_.hi - by && box[1].lo <= domain_.lo + by);
   }
 
   void add_cusp(double at) {
@@ -318,7 +328,7 @@ class SelfIntersections {
   }
 
   // The seam of a closed curve is its begin.
-  double on_one_side(double t) const { return is_closed() && t >= domain_.hi - near() ? domain_.lo : t; }
+  double on_one_side(double t) const { return is_closed_ && t >= domain_.hi - near() ? domain_.lo : t; }
 
   bool is_known(const CurveSelfIntersection& one) const {
     for (const CommonPart& common : result_.common) {
@@ -348,11 +358,14 @@ class SelfIntersections {
 
   const Curve& curve_;
   const Interval domain_;
+  const CurveProjector projector_;
+  const bool is_closed_;
   double tolerance_ = 0;  // a length
   double rounding_ = 0;   // likewise: what it leaves between places where the curve meets itself
   double least_ = 0;      // of the parameter
   std::vector<double> stops_;
   std::vector<Interval> parts_;
+  std::vector<Box3> boxes_;  // of the parts
   CurveSelfIntersections result_;
 };
 
