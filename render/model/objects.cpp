@@ -1,5 +1,7 @@
 #include "render/model/objects.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -72,6 +74,46 @@ bool is_unbounded(const Entity& entity) {
 bool is_plane(const Entity& entity) {
   const auto* surface = std::get_if<SurfacePtr>(&entity);
   return surface && dynamic_cast<const geometry::Plane*>(surface->get());
+}
+
+// Larger coordinates than these have squares of squares that single precision does not hold: rays would miss them.
+constexpr double kMaxCoordinate = 1e15;
+
+// How far a shape reaches from the origin along an axis. Of curves and surfaces how near places all over them are: a
+// graph may leave the page towards a pole.
+double reach(const Entity& entity, const Affine& placed) {
+  constexpr double kShares[] = {0.13, 0.37, 0.61, 0.89};
+  const auto reach_of = [&](const Vec3& p) {
+    const Vec3 at = glm::abs(placed.point(p));
+    return std::max({at.x, at.y, at.z});
+  };
+  const auto inside = [](const Interval& range, double share) { return range.lo + share * range.width(); };
+  const auto reach_of_surface = [&](const Surface& surface) {
+    if (!surface.bounded()) return 0.0;
+    const Rectangle domain = surface.domain();
+    double near = kInfinity;
+    for (const double u : kShares)
+      for (const double v : kShares)
+        near = std::min(near, reach_of(surface.point(inside(domain.u, u), inside(domain.v, v))));
+    return near;
+  };
+  const auto reach_of_box = [&](const Box3& box) {
+    return box.bounded() ? std::max(reach_of(box.lo), reach_of(box.hi)) : 0.0;
+  };
+  double far = 0;
+  if (const auto* point = std::get_if<Vec3>(&entity)) far = reach_of(*point);
+  if (const auto* curve = std::get_if<CurvePtr>(&entity); curve && (*curve)->domain().width() < kInfinity) {
+    far = kInfinity;
+    for (const double t : kShares) far = std::min(far, reach_of((*curve)->point(inside((*curve)->domain(), t))));
+  }
+  if (const auto* surface = std::get_if<SurfacePtr>(&entity)) far = reach_of_surface(**surface);
+  if (const auto* set = std::get_if<SurfaceSet>(&entity))
+    for (const SurfacePtr& surface : *set) far = std::max(far, reach_of_surface(*surface));
+  if (const auto* body = std::get_if<BodyPtr>(&entity))
+    for (const Vertex& vertex : (*body)->vertices) far = std::max(far, reach_of(vertex.point));
+  if (const auto* mesh = std::get_if<MeshPtr>(&entity)) far = reach_of_box(bounds(**mesh));
+  if (const auto* shape = std::get_if<ShapePtr>(&entity)) far = reach_of_box((*shape)->bounds());
+  return far;
 }
 
 // What surfaces without an end cannot be cut by or meet.
@@ -173,6 +215,7 @@ Objects objects_of(const Fields& fields) {
     if (object.mesh_angle > 0 && !mesh.has("sag") && !mesh.given("sag_pixels")) object.sag = sag_of_angle(object);
     check_caps(object);
     check_unbounded(object);
+    check_size(object);
     if (std::holds_alternative<GroupPtr>(object.shape))
       for (const char* field : {"back_material", "representation", "mesh", "shading", "visible_to", "clip",
                                 "section_hatch", "lines", "show", "fill"})
@@ -196,6 +239,12 @@ Objects objects_of(const Fields& fields) {
 }
 
 }  // namespace
+
+void check_size(const Object& object) {
+  if (reach(object.shape, object.transform) > kMaxCoordinate)
+    throw FieldError("shape", fmt::format("'{}' has coordinates beyond {:g}", object.name, kMaxCoordinate),
+                     "measure in a larger unit");
+}
 
 TypeDeclaration object_type() {
   TypeDeclaration type = declare(Category::object, "object", "What is shown, and how it looks.");

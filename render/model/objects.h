@@ -24,4 +24,7 @@ const void* identity(const Entity& entity);
 // The kinds of `lines` that things like this can have, though this one may have none.
 std::vector<std::string> line_kinds_of(const Entity& entity);
 
+// Throws FieldError (field shape) for what is too large to be shown.
+void check_size(const Object& object);
+
 }  // namespace lekalo::render

@@ -215,6 +215,31 @@ geometry:
             self.assertAlmostEqual(found["distance"], math.dist(to, near), delta=1e-12)
             self.assertEqual(len(found["feet"]), 1)
 
+    def test_what_is_too_large_is_refused_with_its_place(self):
+        self.write("large.yaml", """lekalo: 1
+parameters: { r: 1e15, b: 1 }
+geometry:
+  ball: { type: ball, radius: r }
+  patch: { type: bezier_surface, points: [[[0, 0, 0], [b, 0, 0]], [[0, b, 0], [b, b, b]]] }
+""")
+        self.run_program("check", "large.yaml")
+        for name, column in (("r=1.1e15", "4:3"), ("b=1e18", "5:3"), ("b=1e30", "5:3")):
+            out, errors = self.run_program("draw", "large.yaml", "--set", name, "-o", "large.svg", code=SCENE_ERROR)
+            self.assertIn(f"large.yaml:{column}", errors)
+            self.assertIn("has coordinates beyond 1e+15", errors)
+        self.write("shown.yaml", """lekalo: 1
+geometry: { ball: { type: ball, radius: 1 } }
+objects: { shape: ball, transform: { scale: 1e20 } }
+""")
+        out, errors = self.run_program("check", "shown.yaml", code=SCENE_ERROR)
+        self.assertIn("shown.yaml:3:", errors)
+        # A graph may leave the page.
+        self.write("graph.yaml", """lekalo: 1
+geometry: { c: { type: formula_curve, y: 'exp(60*x)', domain: [0, 1] } }
+camera: { type: graph, y: [0, 5] }
+""")
+        self.run_program("check", "graph.yaml")
+
     def test_a_geodesic_without_end_is_refused(self):
         self.write("long.yaml", """lekalo: 1
 geometry:

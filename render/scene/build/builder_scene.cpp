@@ -7,6 +7,7 @@
 
 #include "geometry/expression/nearest_name.h"
 #include "render/cameras/cameras.h"
+#include "render/model/objects.h"
 #include "render/model/section_faces.h"
 #include "render/scene/build/builder.h"
 #include "render/scene/types/panels.h"
@@ -211,6 +212,11 @@ void Builder::default_objects(Model& model) {
       Object object;
       object.name = one.name.empty() ? name : name + "." + one.name;
       object.shape = entity_of(one.built.value);
+      try {
+        render::check_size(object);
+      } catch (const geometry::FieldError& error) {
+        diagnostics_.error(thing.entry->key.place, error.what(), error.hint);
+      }
       model.objects.push_back(std::move(object));
     }
   }
