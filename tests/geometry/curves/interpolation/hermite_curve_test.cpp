@@ -63,6 +63,22 @@ TEST(TangentEstimates, OfFourPointsAreTheBooks) {
             1e-14);
 }
 
+// Golovanov 2016, 2.3: inside as of parabolas through three points, and no second derivative at the ends.
+TEST(TangentEstimates, OfBesselLeaveTheEndsFree) {
+  const Data data = sampled([](double t) { return Vec3(std::exp(t), std::sin(3 * t), t * t); }, 6);
+  const PointSequence s = data.sequence();
+  const auto tangents = estimated_tangents("bessel", s);
+  for (int i = 1; i < 5; ++i) {
+    const double before = s.step(i - 1), after = s.step(i);
+    EXPECT_LE(distance(tangents[i], (after * s.slope(i - 1) + before * s.slope(i)) / (before + after)), 1e-14) << i;
+  }
+  const NurbsCurve curve = hermite_curve(s, tangents);
+  const Interval domain = curve.domain();
+  const double size = glm::length(curve.evaluate(0.5 * (domain.lo + domain.hi), 2).d[2]);
+  for (const double end : {domain.lo, domain.hi})
+    EXPECT_LE(glm::length(curve.evaluate(end, 2).d[2]), 1e-13 * (1 + size)) << end;
+}
+
 TEST(TangentEstimates, OfCirclesAreTheirTangents) {
   Points points;
   for (const double angle : {0.3, 0.9, 2.1, 2.4, 3.9}) points.push_back({std::cos(angle), std::sin(angle), 0});
