@@ -128,8 +128,9 @@ class Target {
     far_ = !std::isfinite(light.distance);
     axis_ = light.direction;
     if (far_) return;
-    place_ = ball.center + light.distance * light.direction;
-    const double sine = ball.radius / light.distance;
+    const geometry::Box3 places = lamp.places();
+    place_ = places.bounded() ? 0.5 * (places.lo + places.hi) : ball.center + light.distance * light.direction;
+    const double sine = ball.radius / glm::length(place_ - ball.center);
     within_ = !(sine < 1);
     height_ = within_ ? 2 : sine * sine / (1 + std::sqrt(1 - sine * sine));
   }
@@ -223,6 +224,18 @@ bool sends_photons(const Light& lamp) {
   return lamp.casts_shadows() && !std::any_cast<EnvironmentLight>(&made);
 }
 
+// How much brighter photons of a lamp whose light does not fall off count than they were sent: they thin out as the
+// square of the distance from the place that the law is about, or from that of its picture in mirrors and glass.
+struct Spread {
+  Vec3 to_ray{0};        // from that place to the photon's ray, at right angles
+  double along = 0;      // from there to the ray's beginning
+  double at_target = 0;  // square of the distance where the power was asked for; 0: the light falls off
+
+  double after(double way) const {
+    return at_target > 0 ? (glm::dot(to_ray, to_ray) + (along + way) * (along + way)) / at_target : 1;
+  }
+};
+
 // The laws of lamps by distance: true where they give the same light at all of them.
 template <class... Lamps>
 bool is_even(const std::any& made) {
@@ -231,6 +244,15 @@ bool is_even(const std::any& made) {
 }
 bool is_even(const Light& lamp) {
   return is_even<PointLight, SpotLight, RectangleLight, DiscLight, SphereLight, ProfileLight>(lamp.made_from());
+}
+
+// Of the ray from the lamp to the target. A ball's law is about its centre, that of others about each place of them.
+Spread spread_of(const Light& lamp, const Ray& ray, const Vec3& target) {
+  const std::any made = lamp.made_from();
+  const auto* ball = std::any_cast<SphereLight>(&made);
+  const Vec3 place = ball ? ball->center : ray.origin, from = ray.origin - place;
+  const double along = glm::dot(from, ray.direction);
+  return {from - along * ray.direction, along, glm::dot(target - place, target - place)};
 }
 
 // What a photon may begin with.
@@ -267,8 +289,7 @@ class PhotonTracer {
   void trace(uint32_t number, std::vector<Photon>& landed) const;
 
  private:
-  // `even_from`: the way after which the power holds of a lamp whose light does not fall off; 0: it does.
-  void follow(Ray ray, Spectrum power, double even_from, int group, SampleStream& random,
+  void follow(Ray ray, Spectrum power, const Spread& spread, int group, SampleStream& random,
               std::vector<Photon>& landed) const;
 
   const World& world_;
@@ -303,11 +324,11 @@ void PhotonTracer::trace(uint32_t number, std::vector<Photon>& landed) const {
   for (size_t k = 0; k < starts_[s].ball; ++k)
     if (balls_[k].meets(ray)) return;
   const auto share = static_cast<float>(cosine / (target.density(outward) * starts_[s].probability * options_.photons));
-  const double even_from = !far && is_even(lamp) ? light.distance : 0;
-  follow(ray, share * light.irradiance, even_from, world_.lamp_groups()[starts_[s].lamp], random, landed);
+  const Spread spread = !far && is_even(lamp) ? spread_of(lamp, ray, point) : Spread();
+  follow(ray, share * light.irradiance, spread, world_.lamp_groups()[starts_[s].lamp], random, landed);
 }
 
-void PhotonTracer::follow(Ray ray, Spectrum power, double even_from, int group, SampleStream& random,
+void PhotonTracer::follow(Ray ray, Spectrum power, const Spread& spread, int group, SampleStream& random,
                           std::vector<Photon>& landed) const {
   Media media = media_at_origin(world_, ray, kYellow);
   Wavelengths wavelengths = kYellow;
@@ -343,9 +364,8 @@ void PhotonTracer::follow(Ray ray, Spectrum power, double even_from, int group, 
                     -ray.direction, sides);
     if (bsdf.is_black()) return;
     if (bounces > 0 && bsdf.has_spread()) {
-      const double spread = even_from > 0 ? way / even_from : 1;  // photons thin out as the square of it
       landed.push_back({seen.point.position, -ray.direction, seen.geometric_normal(),
-                        static_cast<float>(spread * spread) * power, group});
+                        static_cast<float>(spread.after(way)) * power, group});
     }
     const Vec2 choice = random.next_sobol_pair(), square = random.next_sobol_pair();
     const std::optional<BsdfSample> next = bsdf.sample(choice, square);

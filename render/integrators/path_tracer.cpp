@@ -119,7 +119,7 @@ class PathTracer {
   void add_surroundings();
   // To be said at the first surface before the light of a direction is added.
   void note_first(const Boundary& seen, const Bsdf& bsdf, const Vec3& in);
-  void add_lamps_along(const Ray& ray, double end, const Medium& medium);
+  void add_lamps_along(const Ray& ray, double end, const Media& media);
   void add_lamp(const Boundary& seen, const Bsdf& bsdf, const Media& media, const Vec2& choice, const Vec2& square);
   // A lamp, or behind the lamps a thing that glows.
   std::optional<LightTree::Choice> choose_lamp(const Vec3& point, double random);
@@ -218,21 +218,32 @@ void PathTracer::add_surroundings() {
   if (options_.background_shines) add(background);
 }
 
-void PathTracer::add_lamps_along(const Ray& ray, double end, const Medium& medium) {
+void PathTracer::add_lamps_along(const Ray& ray, double end, const Media& media) {
   const std::vector<LightPtr>& lamps = world_.lamps();
+  // Light that lamps were asked for as well is stopped by the same things: by what shadow rays see.
+  const bool as_shadow = !origin_.sharp && world_.shadows_differ();
+  if (as_shadow && origin_.gone > 0) return;
   for (const size_t i : origin_.eye ? world_.backdrops() : world_.lamps_with_size()) {
     if (origin_.gathered && origin_.sharp && caustics_->of_lamp[i]) continue;  // photons have brought it
     const std::optional<LightSample> lamp = lamps[i]->towards(origin_.point, ray.direction);
     if (!lamp || lamp->irradiance.is_zero()) continue;
+    const double weight = origin_.sharp ? 1 : power_heuristic(origin_.density, choice_at_origin(i) * lamp->density);
+    Spectrum light = static_cast<float>(weight * lamp->density) * light_of(*lamps[i], lamp->irradiance, colors_);
     // Without shadows the light arrives through everything, but what is seen, itself or in a mirror, still lies before
     // or behind other things.
     const bool here = lamps[i]->casts_shadows() || origin_.sharp
                           ? lamp->distance > origin_.gone && lamp->distance <= origin_.gone + end
                           : origin_.gone == 0;
-    if (!here) continue;
-    const double weight = origin_.sharp ? 1 : power_heuristic(origin_.density, choice_at_origin(i) * lamp->density);
-    const Spectrum light = static_cast<float>(weight * lamp->density) * light_of(*lamps[i], lamp->irradiance, colors_) *
-                           transmittance(medium.extinction(), lamp->distance - origin_.gone);
+    if (as_shadow && lamps[i]->casts_shadows()) {
+      Ray shadow = ray;
+      shadow.kind = RayKind::shadow;
+      shadow.t_max = lamp->distance;
+      light *= unobstructed(world_, shadow, media, colors_, sample_);
+    } else if (here) {
+      light *= transmittance(media.current().extinction(), lamp->distance - origin_.gone);
+    } else {
+      continue;
+    }
     add(light, world_.lamp_groups()[i], bounces_ == 1 && !origin_.sharp);
   }
 }
@@ -493,7 +504,7 @@ void PathTracer::trace(Ray ray, Hit hit) {
     if (pass > 0 && !world_.nearest(ray, hit)) hit.instance = -1;
     const Medium medium = media.current();
     const double end = hit.instance < 0 ? kInfinity : hit.t;
-    add_lamps_along(ray, end, medium);
+    add_lamps_along(ray, end, media);
     const bool scatters = !medium.scattering.is_zero();
     if (scatters && is_scattered(ray, end, medium, media)) {
       if (scatterings_ > options_.max_scatterings) return;
@@ -536,10 +547,17 @@ void PathTracer::trace(Ray ray, Hit hit) {
       add(light, 0, bounces_ == 1 && !origin_.sharp);
     }
     if (!seen.front && !scattering.two_sided) return;
-    if (bounces_ > options_.max_depth || scatterings_ > options_.max_scatterings) return;
-
     const Vec3 normal = seen.shading_normal(ray.direction);
     const Sides sides{media.current().index, seen.behind.current().index};
+    if (bounces_ > options_.max_depth || scatterings_ > options_.max_scatterings) {
+      // The last direction ends here, but for what comes straight through, which is its light as much as a lamp's.
+      share_ *= straight_share(scattering, std::fabs(glm::dot(ray.direction, normal)), sides);
+      if (share_.is_zero()) return;
+      media = seen.behind;
+      origin_.gone += hit.t;
+      world_.leave(seen.far_side(), ray.direction, ray);
+      continue;
+    }
     const Bsdf bsdf(scattering, normal, seen.geometric_normal(), seen.point.du, -ray.direction, sides);
     if (bsdf.is_black()) return;
     if (bsdf.has_spread()) {

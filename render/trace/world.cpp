@@ -380,8 +380,13 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
   });
   c.list_places();
   c.list_faced();
-  for (const Object* object : c.objects)
+  const auto seen_by = [](const Object& object, RayKind kind) {
+    return (object.visible_to & static_cast<uint32_t>(kind)) != 0;
+  };
+  for (const Object* object : c.objects) {
     for (const Material* material : materials_of(*object)) transmits_ = transmits_ || material->transmits();
+    shadows_differ_ = shadows_differ_ || seen_by(*object, RayKind::shadow) != seen_by(*object, RayKind::reflection);
+  }
   if (transmits_) list_contacts();
   list_glows();
   c.statistics.pieces = c.top.piece_count();

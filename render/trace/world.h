@@ -89,6 +89,8 @@ class World final : public CurvatureSource {
   const Material& material(const SurfacePoint& point, bool front) const;
   // True if some material lets light through, so that what occludes may only tint.
   bool has_transmitting_materials() const { return transmits_; }
+  // True if shadow rays see other things than reflected ones.
+  bool shadows_differ() const { return shadows_differ_; }
   // False if nothing else can be at the place of a point of a body of some substance; only asked of these.
   bool may_be_in_contact(const SurfacePoint& point) const {
     return contacts_.empty() || contacts_[point.instance].contains(point.position);
@@ -130,7 +132,7 @@ class World final : public CurvatureSource {
   Spectrum ambient_;
   std::vector<int> lamp_groups_;
   std::vector<Spectrum> ambient_by_group_;
-  bool transmits_ = false;
+  bool transmits_ = false, shadows_differ_ = false;
   std::vector<geometry::Box3>
       contacts_;                       // by instance: where its box meets others'; none at all where that is not known
   std::vector<geometry::Box3> media_;  // hold all bodies of some substance

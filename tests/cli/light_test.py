@@ -169,6 +169,60 @@ image: {{ size: [8, 8], samples: 4, background: black, layers: [color] }}
         for side in 2, 8, 60:
             self.assert_near(self.mean(f"{side}.exr"), expected, 0.1 * expected)
 
+    def test_balls_that_do_not_fall_off_pass_panes(self):
+        """Of each face's reflectance R a share of (1 - R) / (1 + R) passes, whatever the ball's size; 1.5 % come back."""
+        for radius in 0.5, 3, 5, 8:  # from 5 on the ball reaches into that around the pane
+            self.write("scene.yaml", f"""lekalo: 1
+geometry:
+  floor: {{ type: plane, size: [80, 80] }}
+  pane: {{ type: box, size: [20, 20, 0.1], center: [0, 0, 0.5] }}
+objects:
+  - {{ shape: floor, material: {{ type: diffuse, color: 0.1 }} }}
+  - {{ shape: pane, material: {{ type: dielectric }}, visible_to: [shadow, reflection] }}
+lights: {{ l: {{ type: sphere_light, center: [0, 0, 20], radius: {radius} }} }}
+camera: {{ type: parallel, from: [0, 0, 2], at: [0, 0, 0], up: y, height: 4 }}
+integrator: {{ type: path, photons: 1000000 }}
+image: {{ size: [4, 4], samples: 16, background: black, layers: [color] }}
+""")
+            self.run_program("render", "scene.yaml", "-o", "ball.exr", "--quiet")
+            self.assert_near(self.mean("ball.exr"), 1.015 * 0.1 * (1 - 0.04) / (1 + 0.04), 0.004)
+
+    def floor_below(self, thing, light, integrator):
+        """Radiance at the middle of a floor of albedo 0.8."""
+        self.write("scene.yaml", f"""lekalo: 1
+geometry: {{ floor: {{ type: plane, size: [4, 4] }}, sheet: {{ type: plane, size: [20, 20], origin: [0, 0, 0.3] }},
+             ball: {{ type: ball, radius: 1, center: [0, 0, 1.2] }} }}
+objects: [{{ shape: floor, material: {{ type: diffuse, color: 0.8 }} }}, {thing}]
+lights: {{ l: {{ {light} }} }}
+camera: {{ type: parallel, from: [0, 0, 0.1], at: [0, 0, 0], up: y, height: 0.2 }}
+integrator: {{ {integrator} }}
+image: {{ size: [4, 4], samples: 256, background: black, layers: [color] }}
+""")
+        self.run_program("render", "scene.yaml", "-o", "floor.exr", "--quiet")
+        return self.mean("floor.exr")
+
+    def test_light_comes_straight_through_whoever_counts_bounces(self):
+        lights = "type: ambient_light", "type: rectangle_light, frame: { origin: [0, 0, 2], z: -z }, size: [4, 4]"
+        for light in lights:
+            open_sky = self.floor_below("{ shape: ball, visible_to: [camera] }", light, "type: direct_lighting")
+            for integrator in "type: direct_lighting", "type: path, bounces: 0":
+                for more in "opacity: 0.5", "opacity: 0":
+                    thing = f"{{ shape: sheet, material: {{ type: diffuse, color: 0, {more} }} }}"
+                    share = 0.5 if more == "opacity: 0.5" else 1
+                    self.assert_near(self.floor_below(thing, light, integrator), share * open_sky, 0.01 * open_sky)
+
+    def test_shadows_are_of_what_shadow_rays_see(self):
+        """Of lamps that are found by directions too: as dark as with all rays, and no darker than with none."""
+        for light in "type: sky_light, sun: [1, -1, 2], intensity: 0.3", "type: sphere_light, center: [0, 0, 6], radius: 3":
+            for integrator in "type: path", "type: direct_lighting":
+                found = {seen: self.floor_below(
+                    f"{{ shape: ball, material: {{ type: diffuse, color: 0 }}, visible_to: [{seen}] }}", light, integrator)
+                    for seen in ("shadow", "reflection", "shadow, reflection", "camera")}
+                free = found["camera"]
+                self.assert_near(found["shadow"], found["shadow, reflection"], 0.01 * free)
+                self.assert_near(found["reflection"], free, 0.01 * free)
+                self.assertLess(found["shadow"], 0.6 * free)
+
     def test_many_clear_balls_over_an_endless_floor(self):
         """More than have photons of their own."""
         balls = "".join(f"  - {{ shape: b, material: g, transform: [{{ translate: [{i % 9 - 4}, {i // 9 - 4}, 0] }}] }}\n"
