@@ -100,7 +100,12 @@ void check_curvature(const SectionMotion& motion, const Profile& profile, const 
 }
 
 Body carried(const SectionMotion& motion, Profile profile, const char* field) {
-  face_along(profile, {0, 0, 1}, field);
+  try {
+    face_along(profile, {0, 0, 1}, field);
+  } catch (const FieldError&) {
+    throw FieldError(field, "the profile does not lie in the plane x, y, which the frame carries along the path",
+                     "a profile in that plane; or placed: true, for one that stands where the path begins, across it");
+  }
   check_curvature(motion, profile, field);
   const bool closed = motion.path()->is_closed();
   const Affine begin = motion.placement(0), end = motion.placement(1);
