@@ -118,6 +118,22 @@ Tally& Tally::operator+=(const Tally& other) {
   return *this;
 }
 
+std::string TiledFilm::fault_of_layers(const Film& film, const Names& names) {
+  for (const std::string& layer : film.layers) {
+    if (std::find(film_layers().begin(), film_layers().end(), layer) == film_layers().end())
+      return "a film has no layer '" + layer + "'";
+    if (layer == kChannels[kQuantity].layer && names.quantity.empty())
+      return "the layer 'quantity' is that of an integrator that measures: analysis";
+    if (is_part(layer) && !names.parts)
+      return "the layer '" + layer + "' is that of an integrator that follows paths: path";
+  }
+  if (keeps_layer(film, kChannels[kDenoisedR].layer))
+    for (const char* needed : {"color", "normal", "albedo", "depth", "variance"})
+      if (!keeps_layer(film, needed))
+        return std::string("the layer 'denoised' is made of others; keep '") + needed + "' too";
+  return {};
+}
+
 TiledFilm::TiledFilm(const Film& film, bool key_layer, const Names& names)
     : filter_(make_filter(film.filter, film.filter_radius)),
       reach_(static_cast<int>(std::ceil(filter_->radius() - 0.5))) {
@@ -138,17 +154,7 @@ TiledFilm::TiledFilm(const Film& film, bool key_layer, const Names& names)
   image_.y = crop_.y0;
   image_.full_width = film.width;
   image_.full_height = film.height;
-  for (const std::string& layer : film.layers)
-    if (std::find(film_layers().begin(), film_layers().end(), layer) == film_layers().end())
-      throw std::invalid_argument("a film has no layer '" + layer + "'");
-    else if (layer == kChannels[kQuantity].layer && names.quantity.empty())
-      throw std::invalid_argument("the layer 'quantity' is that of an integrator that measures: analysis");
-    else if (is_part(layer) && !names.parts)
-      throw std::invalid_argument("the layer '" + layer + "' is that of an integrator that follows paths: path");
-  if (keeps_layer(film, kChannels[kDenoisedR].layer))
-    for (const char* needed : {"color", "normal", "albedo", "depth", "variance"})
-      if (!keeps_layer(film, needed))
-        throw std::invalid_argument(std::string("the layer 'denoised' is made of others; keep '") + needed + "' too");
+  if (const std::string fault = fault_of_layers(film, names); !fault.empty()) throw std::invalid_argument(fault);
   channel_.fill(-1);
   for (int c = 0; c < kFilmChannels; ++c) {
     const std::string_view name = c == kQuantity ? std::string_view(names.quantity) : kChannels[c].channel;

@@ -110,6 +110,9 @@ class TiledFilm {
     std::vector<std::string> groups;  // of lights
   };
 
+  // Why a film does not have the layers that are asked for; empty: it has.
+  static std::string fault_of_layers(const Film& film, const Names& names);
+
   // Throws std::invalid_argument for an unknown filter or layer, one that the samples do not bring, or an empty crop.
   TiledFilm(const Film& film, bool key_layer, const Names& names);
 

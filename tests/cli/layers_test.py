@@ -103,6 +103,10 @@ class Layers(ProgramTest):
         self.scene("layers: [color, diffuse]", integrator="classic")
         self.assertIn("'diffuse' is that of an integrator that follows paths",
                       self.run_program("render", "scene.yaml", code=3)[1])
+        self.assertIn("'diffuse' is that of an integrator that follows paths",
+                      self.run_program("check", "scene.yaml", code=3)[1])
+        self.scene("layers: [color, denoised]")
+        self.assertRegex(self.run_program("check", "scene.yaml", code=3)[1], r"scene.yaml:\d+:\d+: .*'denoised' is made of")
         self.scene("noise: 0.02", group="'a b'")
         self.assertIn("group", self.run_program("check", "scene.yaml", code=3)[1])
 

@@ -6,6 +6,7 @@
 
 #include "render/cameras/cameras.h"
 #include "render/film/filter.h"
+#include "render/film/tiles.h"
 #include "render/scene/build/builder.h"
 #include "render/scene/types/panels.h"
 #include "render/scene/types/sections.h"
@@ -180,6 +181,11 @@ void Builder::build_film(const Fields& image, Model& model) {
   film.noise = image.number("noise");
   film.half_color = image.text("color_precision") == "half";
   if (image.has("layers")) film.layers = image.get<std::vector<std::string>>("layers");
+  if (image.has("layers") && model.integrator) {
+    const std::string fault =
+        TiledFilm::fault_of_layers(film, {model.integrator->quantity(), model.integrator->tells_parts(), {}});
+    if (!fault.empty()) diagnostics_.error(section("image")->find("layers")->place, fault);
+  }
   film.seed = static_cast<uint32_t>(image.integer("seed"));
   model.background = rgb(image.vec3("background"));
   const Value* given = section("image");
