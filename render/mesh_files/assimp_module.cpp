@@ -79,6 +79,9 @@ ModelMaterial material_of(const aiScene& scene, const aiMaterial& from) {
   const Vec3 specular = color(from, AI_MATKEY_COLOR_SPECULAR, Vec3(1));
   to.shines = is_metal_rough || std::fmax(specular.x, std::fmax(specular.y, specular.z)) > 0;
   to.emission = number(from, AI_MATKEY_EMISSIVE_INTENSITY, 1) * color(from, AI_MATKEY_COLOR_EMISSIVE, Vec3(0));
+  int shading = 0;
+  to.unlit =
+      is_metal_rough && from.Get(AI_MATKEY_SHADING_MODEL, shading) == AI_SUCCESS && shading == aiShadingMode_Unlit;
   aiString alpha;
   if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, alpha) == AI_SUCCESS) {
     to.has_holes = std::string(alpha.C_Str()) != "OPAQUE";
@@ -182,12 +185,27 @@ class ModelFiles final : public Assimp::DefaultIOSystem {
   }
 
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (mended_.empty() || path_ != file) return DefaultIOSystem::Open(stored_path(file).c_str(), mode);
+    if (mended_.empty() || path_ != file) {
+      Assimp::IOStream* const stream = DefaultIOSystem::Open(stored_path(file).c_str(), mode);
+      note_library(file, stream != nullptr);
+      return stream;
+    }
     return new Assimp::MemoryIOStream(reinterpret_cast<const uint8_t*>(mended_.data()), mended_.size());
   }
 
+  // The first library of materials of an OBJ file that is not there; empty: all are.
+  const std::string& missing_library() const { return missing_; }
+
  private:
-  std::string path_, mended_;
+  // In place of one that is not there assimp takes that of the model's name, which it asks for next.
+  void note_library(const std::string& file, bool is_there) {
+    if (!file.ends_with(".mtl")) return;
+    const bool is_own = file == path_.substr(0, path_.rfind('.')) + ".mtl";
+    if (!is_there && missing_.empty()) missing_ = file;
+    if (is_there && is_own) missing_.clear();
+  }
+
+  std::string path_, mended_, missing_;
 };
 
 }  // namespace
@@ -196,12 +214,18 @@ extern "C" __attribute__((visibility("default"))) bool lekalo_assimp_read(const 
                                                                           std::string& error) {
   try {
     Assimp::Importer importer;
-    importer.SetIOHandler(new ModelFiles(path));  // which the importer deletes
+    auto* const files = new ModelFiles(path);
+    importer.SetIOHandler(files);  // which the importer deletes
     const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                                        aiProcess_SortByPType | aiProcess_ValidateDataStructure);
     if (!scene || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) || !scene->mRootNode) {
       error = importer.GetErrorString();
       if (error.empty()) error = "the file is not complete";
+      return false;
+    }
+    if (!files->missing_library().empty()) {
+      error = "there is no '" + files->missing_library() +
+              "', the library of its materials; put it there, or take the file's triangles alone: type: mesh";
       return false;
     }
     for (unsigned i = 0; i < scene->mNumMaterials; ++i)

@@ -1,5 +1,6 @@
 #include "render/mesh_files/model_file.h"
 
+#include <cmath>
 #include <mutex>
 
 #include "render/image/module.h"
@@ -20,6 +21,10 @@ FileModel read_model(const std::string& path) {
   FileModel model;
   std::string error;
   if (!function(path.c_str(), model, error)) throw MeshFileError(path + ": " + error);
+  for (const FileModel::Part& part : model.parts)
+    for (const geometry::Vec3& p : part.mesh.points)
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        throw MeshFileError(path + ": a vertex of '" + part.name + "' has a coordinate that is no finite number");
   if (model.placed.empty()) throw MeshFileError(path + ": the model has no triangles");
   return model;
 }

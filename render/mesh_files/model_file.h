@@ -24,6 +24,7 @@ struct ModelMaterial {
   double metalness = 0, roughness = 0.5, opacity = 1, transmission = 0, index = 1.5;
   geometry::Vec3 emission{0};
   bool shines = true;      // else it is matt
+  bool unlit = false;      // shows its colour whatever the light (KHR_materials_unlit)
   bool has_holes = false;  // the alpha of base_picture counts
   double cutoff = -1;      // >= 0: what is less opaque is not there, the rest is there fully
   ModelPicture base_picture, normal_picture, emission_picture, opacity_picture;

@@ -191,6 +191,12 @@ MaterialPtr material_of(const ModelMaterial& from, Pictures& pictures) {
           factored(texture_of(pictures.read(from.emission_picture, SampleEncoding::linear), from.emission_picture),
                    from.emission);
   }
+  if (from.unlit) {
+    to.emission_luminance = 1;
+    to.emission_color = to.base_color;
+    to.base_color = Vec3(0);
+    to.base_metalness = to.specular_weight = 0;
+  }
   if (from.normal_picture.exists())
     detail.normal_map = texture_of(pictures.read(from.normal_picture, SampleEncoding::raw), from.normal_picture);
   if (!detail.has_holes && (from.opacity < 1 || from.opacity_picture.exists())) {
@@ -233,11 +239,12 @@ GroupPtr group_of(FileModel model, const std::string& file, bool y_up) {
 }  // namespace
 
 TypeDeclaration model_type() {
-  TypeDeclaration type =
-      declare(Category::group, "model",
-              "A model from a glTF or OBJ file, with its materials, pictures and copies. Materials "
-              "become `principled`, pictures are read from where the file says. Bumps of OBJ files "
-              "(map_Bump) are left out, for their height has no unit; maps of normals (norm) count.");
+  TypeDeclaration type = declare(
+      Category::group, "model",
+      "A model from a glTF or OBJ file, with its materials, pictures and copies. Materials "
+      "become `principled`, pictures are read from where the file says. Bumps of OBJ files "
+      "(map_Bump) are left out, for their height has no unit; maps of normals (norm) count. Colours of vertices "
+      "(COLOR_0) are left out; what is unlit glows with its colour.");
   type.example("file: lamp.glb");
   return type.field("file", file(), "glTF (.gltf, .glb), OBJ, or what else assimp reads")
       .field("up", choice({"y", "z"}), "the file's axis that becomes z; glTF has y, OBJ files this or that", "y")

@@ -167,6 +167,22 @@ objects: [{ shape: a, material: it }]""")
         self.same("""geometry: { a: { type: plane, size: [2, 2], frame: { x: x, z: -y } } }
 objects: [{ shape: a, material: { type: principled, base_color: [0.7, 0.1, 0.05], specular_roughness: 1, specular_weight: 0 } }]""")
 
+    def test_unlit_shows_its_colour(self):
+        self.write("thing.gltf", gltf([{"mesh": 0}], {
+            **matt(baseColorFactor=[0.8, 0.1, 0.2, 1]), "extensions": {"KHR_materials_unlit": {}}}))
+        self.write("dark.yaml", SCENE.format(file="thing.gltf", view="front", more="").replace("ambient_light", "ambient_light, intensity: 0"))
+        self.run_program("render", "dark.yaml", "-o", "dark.exr", "--quiet")
+        planes = read_exr(self.bytes_of("dark.exr"))[1]
+        for layer, expected in zip("RGB", (0.8, 0.1, 0.2)):
+            self.assertAlmostEqual(planes[layer][16 * 32 + 16], expected, 4)
+
+    def test_what_an_obj_file_lacks_is_named(self):
+        square = "v 0 0 {}\nv 1 0 0\nv 1 1 0\n"
+        self.write("bare.obj", "mtllib missing.mtl\n" + square.format(0) + "usemtl red\nf 1 2 3\n")
+        self.assertIn("missing.mtl", self.render("bare.obj", code=3))
+        self.write("nan.obj", square.format("nan") + "f 1 2 3\n")
+        self.assertIn("nan.obj", self.render("nan.obj", code=3))
+
     def test_what_is_wrong_is_named(self):
         self.write("broken.gltf", "{ \"asset\": ")
         self.write("empty.gltf", json.dumps({"asset": {"version": "2.0"}}))
