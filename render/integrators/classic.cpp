@@ -202,6 +202,13 @@ Spectrum Tracer::shade(const Ray& ray, const Interaction& seen, ClassicCoefficie
       transmission *= 1 - f;
       break;
     }
+    case Fresnel::pane: {
+      const Spectrum f = fresnel_dielectric(cosine, per_n0 * c.index);
+      const float both = f[0] < 1 ? 2 * f[0] / (1 + f[0]) : 1;
+      mirror += both * transmission;
+      transmission *= 1 - both;
+      break;
+    }
     case Fresnel::coat:
       mirror *= fresnel_dielectric(cosine, per_n0 * c.index);
       break;

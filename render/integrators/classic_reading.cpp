@@ -58,7 +58,8 @@ class Reader {
   void operator()(const ClearLobe& lobe) {
     gloss(lobe.roughness, lobe.facing);
     c_.transmission += weight_ * lobe.tint * Spectrum(1, 1, 1, 0);
-    c_.fresnel = lobe.thin ? Fresnel::none : Fresnel::boundary;
+    c_.fresnel = lobe.thin ? Fresnel::pane : Fresnel::boundary;
+    if (lobe.thin) c_.index = Spectrum(static_cast<float>(lobe.index));
   }
 
  private:

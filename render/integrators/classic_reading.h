@@ -6,7 +6,7 @@
 //   coat over a matt body k_a = k_d = albedo; k_s = F0 (n + 2)/2, at most 1; mirror = s F
 //   coat                  k_s and mirror of it
 //   metal                 k_a = (1 - s) F0; k_d = r k_a; k_s = F0 times (1 - s)(n + 2)/2, at most F0; mirror = s F
-//   clear boundary        k_s = F0 (n + 2)/2, at most 1; k_t = 1 - F, mirror = F; of a thin pane k_t = tint, mirror 0
+//   clear boundary        k_s = F0 (n + 2)/2, at most 1; k_t = 1 - F, mirror = F; of a thin pane F is 2 F / (1 + F)
 //   matt sheet            k_a = k_d = reflectance
 //   sheen                 nothing
 //
@@ -23,6 +23,8 @@ namespace lekalo::render {
 enum class Fresnel {
   none,
   boundary,  // of the media on both sides: mirror + transmission F and transmission (1 - F)
+  pane,      // of both faces of a pane of the given index, R = 2 F / (1 + F): mirror + transmission R and
+             // transmission (1 - R)
   coat,      // of a clear coat of the given index over an opaque body: mirror F
   conductor  // of the complex index (index, extinction): mirror F
 };
@@ -38,7 +40,7 @@ struct ClassicCoefficients {
   Spectrum transmission;  // k_t, share of the traced refracted ray
   float spread = 0;       // n of the light k_t cos(beta)^n of lamps behind the surface; 0: none
   Fresnel fresnel = Fresnel::none;
-  Spectrum index{1.0f};          // of coats and conductors, at the wavelengths asked for
+  Spectrum index{1.0f};          // of panes, coats and conductors, at the wavelengths asked for
   Spectrum extinction;           // of conductors: imaginary part of the index
   bool two_sided = true;         // false: the back shows only emission and ambient light
   bool catches_shadows = false;  // shows the background, darkened where lights do not reach; not seen from behind

@@ -67,13 +67,14 @@ class DielectricMaterial final : public Material {
 MaterialPtr make_material(const Dielectric& dielectric) { return std::make_shared<DielectricMaterial>(dielectric); }
 
 TypeDeclaration dielectric_type() {
-  TypeDeclaration type =
-      declare(Category::material, "dielectric",
-              "Clear body: glass, crystal, liquid. Classic reading, with F the boundary's reflectance at the actual "
-              "angle: mirror "
-              "= F, k_t = 1 - F, refracted with the index for yellow light (line d, 587.56 nm); k_a = k_d = 0; lamps "
-              "show as Phong "
-              "highlights with n = (1/r^4 - 1)/2 within 1 to 1000 and k_s = F0 (n + 2)/2, at most 1, r the roughness.");
+  TypeDeclaration type = declare(
+      Category::material, "dielectric",
+      "Clear body: glass, crystal, liquid. Classic reading, with F the boundary's reflectance at the actual "
+      "angle: mirror "
+      "= F, k_t = 1 - F, refracted with the index for yellow light (line d, 587.56 nm); k_a = k_d = 0; lamps "
+      "show as Phong "
+      "highlights with n = (1/r^4 - 1)/2 within 1 to 1000 and k_s = F0 (n + 2)/2, at most 1, r the roughness; of "
+      "a thin pane F is that of both faces, 2 F / (1 + F); a film is left out.");
   type.optional("glass", choice(dielectric_names()), "substance; gives the index for every wavelength")
       .optional("index", number().positive(), "refractive index for yellow light; 1.5 without `glass`")
       .optional("abbe", number().at_least(5),
@@ -88,7 +89,11 @@ TypeDeclaration dielectric_type() {
              "mean cosine of the angle by which scattered light is turned; 0: evenly to all sides", "0")
       .field("thin", boolean(), "true: a pane, both its faces in one surface; light goes straight through", "false")
       .field("priority", integer(), "where bodies overlap the substance of the highest priority counts", "0");
-  declare_roughness(type, "roughness", "0: clear; more: frosted, and wider highlights", "0");
+  declare_roughness(
+      type, "roughness",
+      "0: clear; more: frosted, and wider highlights. Light that meets several facets in a row is lost: of a "
+      "ball of index 1.5 in an all white world 0.0 % at 0.1, 1.4 % at 0.3, 10 % at 0.5, 63 % at 1",
+      "0");
   declare_thin_film(type);
   declare_normal_deviation(type);
   type.example("glass: N-BK7");

@@ -53,6 +53,11 @@ std::string reflection(const ClassicCoefficients& c, const std::string& name, Po
                   "(1 - F) transmission");
       return fmt::format(" reflection {{ {}, {} fresnel on }} conserve_energy", pov_rgb(c.mirror),
                          pov_rgb(c.mirror + c.transmission));
+    case Fresnel::pane: {
+      notes.add(name + ": POV-Ray has no panes of one surface; their reflectance at right angles is taken");
+      const float f = fresnel_dielectric(1, c.index)[0];
+      return fmt::format(" reflection {{ {} }}", pov_rgb(c.mirror + 2 * f / (1 + f) * c.transmission));
+    }
     case Fresnel::conductor:
       if (c.mirror.is_zero()) return "";
       notes.add(name + ": POV-Ray has no reflectance of metals by angle; that at right angles is taken");
