@@ -1,5 +1,5 @@
 // Metal with its own measured reflectance: Fresnel's formulas with the complex index n - i k at the light's
-// wavelengths.
+// wavelengths, or for colours that which gives what the eye sees of all of them.
 #include <algorithm>
 #include <vector>
 
@@ -16,11 +16,62 @@ using namespace geometry;
 
 namespace {
 
+// Of D65, by angle: what the eye sees of a metal, cut to Rec.709.
+Spectrum seen_reflectance(const std::vector<ComplexIndex>& entries, double cosine) {
+  std::vector<float> values;
+  for (const ComplexIndex& index : entries) values.push_back(fresnel_conductor(cosine, index.n, index.k)[0]);
+  const Vec3 seen = color_of([&](double nanometres) {
+    return entry_at(nanometres, [&](size_t i) { return static_cast<double>(values[i]); });
+  });
+  return rgb(glm::clamp(seen, Vec3(0), Vec3(1)));
+}
+
+// The n and k of red, green and blue with which Fresnel's formulas say what the eye sees at right angles, and most
+// nearly what it sees at others. Those of one reflectance r at right angles lie on a line (Gulbrandsen, "Artist
+// friendly metallic Fresnel", 2014):
+//   n = g (1 - r) / (1 + r) + (1 - g) (1 + sqrt r) / (1 - sqrt r),  k^2 = (r (n + 1)^2 - (n - 1)^2) / (1 - r)
+ComplexIndex seen_index(const std::string& metal) {
+  std::vector<ComplexIndex> entries;
+  for (int i = 0; i < kSpectrumEntries; ++i) {
+    Wavelengths one;
+    one.nanometres.fill(static_cast<float>(entry_nanometres(i)));
+    entries.push_back(metal_index(metal, one));
+  }
+  constexpr int kAngles = 8, kPlaces = 500;
+  constexpr double kMost = 0.9999;  // n and k of what reflects all are not finite
+  std::vector<Spectrum> seen;
+  for (int j = 1; j <= kAngles; ++j) seen.push_back(seen_reflectance(entries, static_cast<double>(j) / kAngles));
+  ComplexIndex index;
+  for (int lane = 0; lane < 3; ++lane) {
+    const double r = std::min(kMost, static_cast<double>(seen.back()[lane])), root = std::sqrt(r);
+    double least = kInfinity;
+    for (int place = 0; place <= kPlaces; ++place) {
+      const double g = static_cast<double>(place) / kPlaces;
+      const double n = g * (1 - r) / (1 + r) + (1 - g) * (1 + root) / (1 - root);
+      const double k = std::sqrt(std::max(0.0, (r * (n + 1) * (n + 1) - (n - 1) * (n - 1)) / (1 - r)));
+      const Spectrum tried_n(static_cast<float>(n)), tried_k(static_cast<float>(k));
+      double squares = 0;
+      for (int j = 1; j <= kAngles; ++j) {
+        const double off = fresnel_conductor(static_cast<double>(j) / kAngles, tried_n, tried_k)[0] -
+                           seen[static_cast<size_t>(j - 1)][lane];
+        squares += off * off;
+      }
+      if (squares >= least) continue;
+      least = squares;
+      index.n.set(lane, tried_n[0]);
+      index.k.set(lane, tried_k[0]);
+    }
+  }
+  index.n.set(3, index.n[1]);  // as in Wavelengths
+  index.k.set(3, index.k[1]);
+  return index;
+}
+
 class ConductorMaterial final : public Material {
  public:
   explicit ConductorMaterial(const Conductor& conductor)
       : conductor_(conductor),
-        rgb_index_(conductor.metal.empty() ? ComplexIndex{} : metal_index(conductor.metal, Wavelengths{})),
+        rgb_index_(conductor.metal.empty() ? ComplexIndex{} : seen_index(conductor.metal)),
         rgb_mean_(MetalReflectance{rgb_index_.n, rgb_index_.k}.mean()),
         roughness_(conductor.roughness,
                    [stretch = conductor.anisotropy](double roughness) { return mirror_albedo(roughness, stretch); }),
@@ -97,7 +148,7 @@ class ConductorMaterial final : public Material {
   }
 
   Conductor conductor_;
-  ComplexIndex rgb_index_;    // looked up once for the usual wavelengths
+  ComplexIndex rgb_index_;    // of red, green and blue as the eye sees them
   Spectrum rgb_mean_;         // of the measured reflectance there
   std::vector<float> means_;  // and at the entries of the tables of spectra
   TabledRoughness roughness_;
@@ -111,7 +162,8 @@ MaterialPtr make_material(const Conductor& conductor) { return std::make_shared<
 TypeDeclaration conductor_type() {
   TypeDeclaration type =
       declare(Category::material, "conductor",
-              "Metal, with its measured reflectance. Classic reading, with r the roughness, F0 and F the metal's "
+              "Metal, with its measured reflectance, in red, green and blue as the eye sees it under D65 and "
+              "at most 1. Classic reading, with r the roughness, F0 and F the metal's "
               "reflectance at right and at the actual angle, s = (1 - 4 r^2)^2 up to r = 0.5, then 0: mirror = s F; "
               "k_a = (1 - s) F0; k_d = r k_a; Phong's exponent n = (1/r^4 - 1)/2 within 1 to 1000; k_s = F0 times (1 - "
               "s)(n + 2)/2, "

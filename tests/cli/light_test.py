@@ -223,6 +223,36 @@ image: {{ size: [4, 4], samples: 256, background: black, layers: [color] }}
                 self.assert_near(found["reflection"], free, 0.01 * free)
                 self.assertLess(found["shadow"], 0.6 * free)
 
+    def white_seen_on(self, material, integrator, camera="from: [0, 0, 2], at: [0, 0, 0], up: y"):
+        """A sheet in a white world."""
+        self.write("scene.yaml", f"""lekalo: 1
+geometry: {{ a: {{ type: plane, size: [4, 4] }}, dark: {{ type: plane, size: [90, 90], origin: [0, 0, -2] }} }}
+objects:
+  - {{ shape: a, material: {{ {material} }} }}
+  - {{ shape: dark, material: {{ type: diffuse, color: 0 }} }}
+lights: {{}}
+camera: {{ type: parallel, {camera}, height: 1 }}
+integrator: {{ {integrator} }}
+image: {{ size: [4, 4], samples: 1024, contrast: 0, background: white, layers: [color] }}
+""")
+        self.run_program("render", "scene.yaml", "-o", "white.exr", "--quiet")
+        return [self.mean("white.exr", layer) for layer in "RGB"]
+
+    def test_metals_look_as_their_spectra_do(self):
+        for metal in "Au", "Cu", "CuZn", "Ag", "Fe":
+            sheet = f"type: conductor, metal: {metal}, roughness: 0"
+            spectral = self.white_seen_on(sheet, "type: path, background_light: true, spectral: true")
+            seen = self.white_seen_on(sheet, "type: path, background_light: true")
+            for one, other in zip(seen, spectral):
+                self.assert_near(one, min(1, other), 0.01)
+
+    def test_classic_panes_mirror_by_both_faces(self):
+        """At 60 degrees 2 F / (1 + F) of white, F = 0.0892."""
+        slanted = "from: [0, -3.4641016, 2], at: [0, 0, 0]"
+        for integrator in "type: classic", "type: path, background_light: true":
+            found = self.white_seen_on("type: dielectric, thin: true", integrator, slanted)
+            self.assert_near(found[0], 2 * 0.0892 / 1.0892, 0.01)
+
     def test_many_clear_balls_over_an_endless_floor(self):
         """More than have photons of their own."""
         balls = "".join(f"  - {{ shape: b, material: g, transform: [{{ translate: [{i % 9 - 4}, {i // 9 - 4}, 0] }}] }}\n"
