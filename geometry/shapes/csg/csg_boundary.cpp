@@ -33,7 +33,7 @@ class Asking {
 
   CsgPlace answer() {
     const CsgBoundary found = boundary();
-    return {found, faces_};
+    return {found, faces_, normals_};
   }
 
  private:

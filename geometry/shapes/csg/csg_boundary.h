@@ -7,6 +7,7 @@
 #pragma once
 
 #include <set>
+#include <vector>
 
 #include "geometry/shapes/csg/csg.h"
 
@@ -25,7 +26,8 @@ struct CsgBoundaryQuestion {
 
 struct CsgPlace {
   CsgBoundary boundary = CsgBoundary::none;
-  std::set<int> faces;  // that the solid has about the point, as its hits number them
+  std::set<int> faces;        // that the solid has about the point, as its hits number them
+  std::vector<Vec3> normals;  // of the boundary where the square crosses it
 };
 
 // `size`: the diameter of the solid's box.

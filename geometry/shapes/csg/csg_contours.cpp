@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <stdexcept>
 
@@ -37,6 +38,9 @@ constexpr double kParallel = 1e-6;
 constexpr double kShortest = 1e-9;
 // Where in a stretch the solid is asked: not half way, where lines of symmetric solids cross themselves.
 constexpr double kAskedAt = 0.4721;
+
+// Normals and directions that are so far from parallel, or from a right angle, belong to another face.
+constexpr double kOtherFace = 1e-3;
 
 // Lines that are so near, of the solid's size, are one: where leaves end flush each has the edge.
 constexpr double kSameLine = 1e-9;
@@ -449,6 +453,25 @@ class Lines {
     return glm::length(glm::cross(normal(line.supporting_surfaces[0]), normal(line.supporting_surfaces[1])));
   }
 
+  // A line of one leaf may lie in a face of another, as an outline in the plane that cuts the solid in half: it is on
+  // the boundary only where that has the leaf's normal, or for want of it one across the sight.
+  bool is_on_own_face(const CsgLine& line, double t, const Vec3& point, const std::vector<Vec3>& normals) const {
+    const CsgLine::SupportingSurface* own = nullptr;
+    for (const CsgLine::SupportingSurface& one : line.supporting_surfaces)
+      if (!own && one.image) own = &one;
+    std::function<bool(const Vec3&)> is_own;
+    if (own) {
+      const Vec3 uv = own->image->point(t), normal = own->surface->normal(uv.x, uv.y);
+      is_own = [=](const Vec3& n) { return !(glm::length(glm::cross(n, normal)) > kOtherFace); };
+    } else if (line.kind == Kind::silhouette) {
+      const Vec3 sight = view_.central ? glm::normalize(point - view_.direction_or_eye) : view_.direction_or_eye;
+      is_own = [=](const Vec3& n) { return !(std::abs(glm::dot(n, sight)) > kOtherFace); };
+    } else {
+      return true;
+    }
+    return std::any_of(normals.begin(), normals.end(), is_own);
+  }
+
   // Of a stretch on the boundary: what it is there. Notes faces that are one across it.
   std::optional<Kind> kind_of(const Candidate& found, const Interval& stretch) {
     const double place = stretch.lo + kAskedAt * stretch.width();
@@ -457,8 +480,9 @@ class Lines {
     const bool is_edge = found.line.kind == Kind::sharp;
     const CsgBoundaryQuestion question{
         at.d[0], at.d[1], found.reach, sine_at(found.line, place), found.touching, is_edge && !found.smooth};
-    const auto [boundary, faces] = boundary_at(solid_, size_, question);
-    if (boundary == CsgBoundary::none) return std::nullopt;
+    const auto [boundary, faces, normals] = boundary_at(solid_, size_, question);
+    if (boundary == CsgBoundary::none || (!is_edge && !is_on_own_face(found.line, place, at.d[0], normals)))
+      return std::nullopt;
     if (!is_edge || boundary == CsgBoundary::sharp_edge) return found.line.kind;
     if (found.smooth || boundary == CsgBoundary::smooth_edge) return Kind::smooth;
     if (faces.size() > 1) result_.one_face.push_back(faces);
