@@ -83,7 +83,8 @@ std::vector<StrokeCollector::PlacedShape> StrokeCollector::placements_of(const E
   }).visit([&](const Object& object, const Affine& to_world, int placement) {
     found.push_back({shape, to_world, numbers_.at(&object), placement});
   });
-  if (found.empty()) found.push_back({shape, Affine(), -1});
+  // A drawing's lines name each object's shape to itself too: it meets nothing there.
+  if (found.empty() && identity(object_->shape) != identity(shape)) found.push_back({shape, Affine(), -1});
   return found;
 }
 

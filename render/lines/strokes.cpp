@@ -295,7 +295,12 @@ void StrokeCollector::text(const Vec3& point, std::string words, const Helper& h
 
 void StrokeCollector::add_lines(const Lines& lines) {
   const bool is_drawings_own = !object_->look || !object_->look->lines;
+  // Colours along a curve take the place of the line that it has by default, which would cover them.
+  const bool is_colored = drawing_ && is_drawings_own && object_->look &&
+                          std::any_of(object_->look->helpers.begin(), object_->look->helpers.end(),
+                                      [](const Helper& helper) { return helper.type == "colored"; });
   for (const char* kind : drawing_ ? std::span<const char* const>(kLinesDrawn) : kLinesShown) {
+    if (is_colored && kind == std::string_view("curve")) continue;
     const auto style = lines.styles.find(kind);
     kind_ = kind;
     const std::string_view word = kind;

@@ -215,7 +215,10 @@ TypeDeclaration direction_helper() {
 }
 
 TypeDeclaration colored_helper() {
-  TypeDeclaration type = helper("colored", "A curve in colours that tell its curvature or another number.", "thick");
+  TypeDeclaration type =
+      helper("colored",
+             "A curve in colours that tell its curvature or another number, in place of the drawing's own line of it.",
+             "thick");
   type.field("by", choice(curve_quantities()),
              "signed_curvature: of a plane curve, positive to the left; speed: |dr/dt|; geodesic_curvature, "
              "normal_curvature: "
