@@ -8,6 +8,7 @@
 #include "geometry/expression/nearest_name.h"
 #include "render/scene/build/builder.h"
 #include "render/scene/values/scalars.h"
+#include "render/scene/values/synonyms.h"
 #include "render/scene/values/value_text.h"
 #include "render/scene/values/words.h"
 
@@ -140,7 +141,9 @@ bool Builder::read_fields_into(Fields& fields, const std::vector<Field>& declare
     if (has_frame) known.insert(known.end(), {"center", "normal", "axis"});
     if (has_formulas) known.emplace_back("let");
     known.insert(known.end(), also_allowed.begin(), also_allowed.end());
-    const auto meant = geometry::nearest_name(name, known);
+    auto meant = geometry::nearest_name(name, known);
+    // Elsewhere the same may have another name altogether.
+    if (const std::string_view called = field_called(name, known); !called.empty()) meant = std::string(called);
     diagnostics_.error(entry.key.place,
                        fmt::format("unknown field '{}' of {}{}", name, what,
                                    meant ? fmt::format(" (did you mean '{}'?)", *meant) : ""),

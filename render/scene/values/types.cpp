@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "render/scene/values/synonyms.h"
+
 namespace lekalo::render {
 
 std::vector<TypeDeclaration> file_types();
@@ -59,19 +61,20 @@ std::vector<std::string> type_names(std::span<const Category> categories) {
 
 std::vector<std::string> types_meant_by(std::string_view word, std::span<const Category> wanted) {
   std::vector<std::string> fitting, others;
-  for (const TypeDeclaration& type : all_types()) {
-    // The ball is the sphere's body.
-    bool meant = word == "sphere" && type.name == "ball";
-    // What other modellers call these.
-    meant = meant || (word == "fuse" && type.name == "union") || (word == "cut" && type.name == "difference") ||
-            (word == "common" && type.name == "intersection");
-    for (const std::string_view suffix : {"_curve", "_surface", "_body", "_light", "_mesh"})
-      meant = meant || (type.name.size() == word.size() + suffix.size() && type.name.starts_with(word) &&
-                        type.name.ends_with(suffix));
-    if (!meant) continue;
+  const auto add = [&](const TypeDeclaration& type) {
     const bool fits = std::find(wanted.begin(), wanted.end(), type.category) != wanted.end();
     (fits ? fitting : others).push_back(type.name);
-  }
+  };
+  for (const std::string_view name : types_called(word))
+    for (const TypeDeclaration& type : all_types())
+      if (type.name == name) add(type);
+  // By its ending alone, where nothing that fits is known by its meaning.
+  if (fitting.empty())
+    for (const TypeDeclaration& type : all_types())
+      for (const std::string_view suffix : {"_curve", "_surface", "_body", "_light", "_mesh"})
+        if (type.name.size() == word.size() + suffix.size() && type.name.starts_with(word) &&
+            type.name.ends_with(suffix))
+          add(type);
   std::vector<std::string>& names = fitting.empty() ? others : fitting;
   std::sort(names.begin(), names.end());
   return names;

@@ -23,8 +23,8 @@ const TypeDeclaration* find_type(std::string_view name, std::span<const Category
 // Names of the types of these categories, sorted.
 std::vector<std::string> type_names(std::span<const Category> categories);
 
-// For a bare word that exists for several kinds (`sphere`): the types that it may mean (`sphere_surface`, ...), those
-// of the wanted categories if there are any.
+// For a word that others use (`cube`), or a bare one that exists for several kinds (`cylinder`): the types that it may
+// mean (`box`; `cylinder_surface`, ...), those of the wanted categories if there are any.
 std::vector<std::string> types_meant_by(std::string_view word, std::span<const Category> wanted);
 
 // For a word where a thing is wanted: what is written with it, "{ type: dielectric, glass: BK7 }", "... or ..."; empty
