@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/bodies/booleans/solid_boundary.h"
 #include "geometry/shapes/implicit/implicit_surface.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "render/model/section.h"
@@ -50,6 +51,13 @@ bool is_implicit(const Entity& entity) {
 }
 
 }  // namespace
+
+void put_boundary_for_caps(Object& object) {
+  const auto* shape = std::get_if<ShapePtr>(&object.shape);
+  if (shape && has_boundary(**shape) &&
+      std::any_of(object.clips.begin(), object.clips.end(), [](const ClipPlane& clip) { return clip.cap; }))
+    object.shape = boundary_of(*shape);
+}
 
 std::vector<std::string> line_kinds_of(const Entity& entity) {
   if (std::holds_alternative<Vec3>(entity) || std::holds_alternative<CurvePtr>(entity)) return {"curve"};
@@ -144,7 +152,7 @@ uint32_t visibility(const std::vector<std::string>& words) {
   return bits;
 }
 
-// Caps need an inside.
+// Caps need an inside. Solids that are put together are capped by their boundary.
 void check_caps(const Object& object) {
   if (std::holds_alternative<BodyPtr>(object.shape) || std::holds_alternative<GroupPtr>(object.shape)) return;
   for (size_t k = 0; k < object.clips.size(); ++k) {
@@ -153,7 +161,18 @@ void check_caps(const Object& object) {
     if (std::holds_alternative<MeshPtr>(object.shape))
       throw FieldError(field, "a cap closes the cut of a body; a mesh from a file knows no inside",
                        "leave out 'cap', or build the shape as a body");
-    if (const auto* shape = std::get_if<ShapePtr>(&object.shape); shape && (*shape)->is_closed())
+    const auto* shape = std::get_if<ShapePtr>(&object.shape);
+    if (shape && has_boundary(**shape)) {
+      try {
+        boundary_of(*shape);
+      } catch (const std::exception& error) {
+        throw FieldError(field,
+                         fmt::format("a cap closes the cut of a body; the boundary of this solid: {}", error.what()),
+                         "leave out 'cap', or cut with an intersection with a half_space: that is closed by itself");
+      }
+      continue;
+    }
+    if (shape && (*shape)->is_closed())
       throw FieldError(field, "a cap closes the cut of a body, and this shape is none",
                        "leave out 'cap', or cut with an intersection with a half_space: that is closed by itself");
     throw FieldError(field, "a cap closes the cut of a body; this shape has no inside",

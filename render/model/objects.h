@@ -27,4 +27,7 @@ std::vector<std::string> line_kinds_of(const Entity& entity);
 // Throws FieldError (field shape) for what is too large to be shown.
 void check_size(const Object& object);
 
+// A solid that is put together becomes its boundary where caps close its cuts; those of bodies alone are closed.
+void put_boundary_for_caps(Object& object);
+
 }  // namespace lekalo::render

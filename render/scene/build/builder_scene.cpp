@@ -172,6 +172,7 @@ void Builder::fill_materials(std::vector<Object>& objects) {
     if (!object.material) object.material = default_material();
     if (auto* group = std::get_if<GroupPtr>(&object.shape)) *group = in_material(*group, object.material);
     dress(object);
+    put_boundary_for_caps(object);
   }
 }
 
@@ -186,6 +187,7 @@ GroupPtr Builder::in_material(const GroupPtr& group, const MaterialPtr& material
     if (!member.material) member.material = material;
     if (auto* inner = std::get_if<GroupPtr>(&member.shape)) *inner = in_material(*inner, member.material);
     dress(member);
+    put_boundary_for_caps(member);
   }
   kept_groups_.push_back(group);
   groups_in_material_[{filled.get(), material.get()}] = filled;
