@@ -15,6 +15,7 @@
 #include "render/drawing/annotations/dimensions.h"
 #include "render/drawing/annotations/light_path.h"
 #include "render/drawing/annotations/page_shapes.h"
+#include "render/model/placed_annotations.h"
 
 namespace lekalo::render {
 
@@ -246,7 +247,8 @@ void add_annotations(const View& view, LineWork& lines, PageWork& page) {
   const DetailPtr detail = detail_of(view.model.drawing);
   if (detail) page.anchors.clear(), page.reach.clear();  // they are cut with all lines
   std::unique_ptr<const World> world;                    // one for all light paths
-  for (const Annotation& annotation : view.model.drawing.annotations) {
+  for (const Annotation& written : view.model.drawing.annotations) {
+    const Annotation annotation = placed(written, view.model.objects, lines.left_out);
     AnnotationWork work(view, annotation, lines, page);
     Added added(lines, page);
     const std::string& type = annotation.type;

@@ -218,6 +218,7 @@ class Builder {
   bool check_figure(const Value& map, const std::function<void()>& make);
   bool check_helper_values(const Helper& helper, const Value& map, const std::vector<std::any>& shapes);
   bool check_size(const TypeDeclaration& type, const Fields& fields, const Value& map);
+  void note_shapes_spoken_of(const Value& map, const Counters& counters, Fields& values);
 
   // --- builder_references.cpp, builder_repeats.cpp: names, families.
   void declare_section(const char* section);

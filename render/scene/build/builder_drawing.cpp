@@ -7,6 +7,8 @@
 
 #include "render/cameras/cameras.h"
 #include "render/model/detail.h"
+#include "render/model/objects.h"
+#include "render/model/placed_annotations.h"
 #include "render/model/section.h"
 #include "render/scene/build/builder.h"
 #include "render/scene/types/panels.h"
@@ -47,6 +49,33 @@ void Builder::merge_styles() {
         if (!changed.value.find(field.key.name)) changed.value.entries.push_back(field);
     std::erase_if(styles_.entries, [&](const Entry& e) { return e.key.name == changed.key.name; });
     styles_.entries.push_back(std::move(changed));
+  }
+}
+
+// Of what an annotation's points, directions and things are, so that drawings place them as the object that shows it.
+void Builder::note_shapes_spoken_of(const Value& map, const Counters& counters, Fields& values) {
+  for (const Entry& entry : map.entries) {
+    const std::string& field = entry.key.name;
+    const bool is_point = values.holds<geometry::Anchor>(field) && !values.get<geometry::Anchor>(field).on_page,
+               is_way = values.holds<Vec3>(field), is_thing = values.holds<std::vector<std::any>>(field);
+    if (!is_point && !is_way && !is_thing) continue;
+    const Value& value = with_counters(entry.value, counters);
+    std::set<const void*> shapes;
+    const auto look = [&](const Value& written) {
+      const Value& item = with_counters(written, counters);
+      const Value* of = item.is_map() ? item.find("of") : &item;
+      if (!of || !of->is_scalar() || !thing_named(*of, counters)) return;
+      const auto parts = parts_named(with_counters(*of, counters), geometry_categories());
+      if (!parts) return;
+      for (const NamedPart& one : *parts) shapes.insert(identity(entity_of(one.member->built.value)));
+    };
+    if (is_thing && value.is_sequence())
+      for (const Value& item : value.items) look(item);
+    else
+      look(value);
+    if (shapes.size() != 1 || !*shapes.begin()) continue;  // points are no shapes of objects that could be told apart
+    const Value* vector = is_way && value.is_map() ? value.find("vector") : nullptr;
+    values.set(shape_field(field), ShapeSpokenOf{*shapes.begin(), vector && vector->text == "normal"});
   }
 }
 

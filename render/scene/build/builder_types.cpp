@@ -111,6 +111,10 @@ const TypeDeclaration* Builder::type_of(const Value& map, std::span<const Catego
   }
   const TypeDeclaration* type = find_type(name, wanted);
   const Place& place = given ? given->place : map.place;
+  if (name == "point" && contains(wanted, Category::point)) {
+    diagnostics_.error(place, "unknown type 'point'", "a point is written as its coordinates: P: [1, 2, 0]");
+    return nullptr;
+  }
   if (!type) {
     if (const auto meant = types_meant_by(name, wanted); !meant.empty()) {
       if (meant.size() == 1)
@@ -163,7 +167,11 @@ std::optional<std::any> Builder::build_as(const TypeDeclaration& type, const Val
   if (!good || !check(type, fields, map)) return std::nullopt;
   if (type.category == Category::annotation && !check_size(type, fields, map)) return std::nullopt;
   auto value = attempt(map, what, [&] { return type.build(fields); });
-  if (value && type.category == Category::annotation) std::any_cast<Annotation&>(*value).place = map.place;
+  if (value && type.category == Category::annotation) {
+    auto& annotation = std::any_cast<Annotation&>(*value);
+    annotation.place = map.place;
+    note_shapes_spoken_of(map, counters, annotation.values);
+  }
   if (!value || !is_geometry(type.category)) return value;
   if (const auto* surface = std::any_cast<SurfacePtr>(&*value); surface && !geometry::spans_area(**surface)) {
     diagnostics_.error(map.place, what + " has no area: its points lie on one curve",
