@@ -77,6 +77,7 @@ std::vector<std::string> types_meant_by(std::string_view word, std::span<const C
           add(type);
   std::vector<std::string>& names = fitting.empty() ? others : fitting;
   std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 
