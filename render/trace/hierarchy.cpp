@@ -193,7 +193,9 @@ void Hierarchy::Parts::build_scene() {
   rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(flags));
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
   plain_triangles = true;
-  grouped_pieces = of_targets > 0 && std::none_of(records.begin(), records.end(), is_mesh);
+  // Embree takes eight rays apart, and asks for them in another order, where the processor has no registers for them.
+  grouped_pieces = of_targets > 0 && std::none_of(records.begin(), records.end(), is_mesh) &&
+                   rtcGetDeviceProperty(device(), RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0;
   for (auto& record : records) {
     RTCGeometry geometry;
     if (record->kind == GeometryRecord::Kind::mesh) {

@@ -77,7 +77,8 @@ struct Hierarchy::Parts {
   size_t pieces = 0, triangles = 0, bytes = 0;
   // The scene holds nothing but triangles that all rays see, so that Embree alone finds candidates.
   bool plain_triangles = false;
-  // The scene holds pieces of surfaces, which are asked for groups of lines, and no triangles.
+  // The scene holds pieces of surfaces, which are asked for groups of lines, and no triangles; and Embree takes eight
+  // rays at once.
   bool grouped_pieces = false;
   RTCScene scene = nullptr;
 

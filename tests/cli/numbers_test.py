@@ -379,7 +379,6 @@ outputs: [touch.png]
     def test_questions_without_an_answer(self):
         for words, message in ((("tile", "--to", "0,0,0"), "'tile' is no curve"),
                                (("rim", "--to", "tile"), "'tile' is no point"),
-                               (("floor", "--to", "floor"), "give one of the planes a domain"),
                                (("rim", "--nearest"), "--nearest belongs to --to"),
                                (("chord", "--position", "0,0,0"), "the curve is not closed"),
                                (("disc", "--position", "0,0,1"), "the body is not closed"),

@@ -49,7 +49,7 @@ const std::vector<Synonym>& types() {
       {"unite", {"union"}},
       {"add", {"union"}},
       {"merge", {"union"}},
-      {"cut", {"difference"}},
+      {"cut", {"difference", "cut_body"}},
       {"subtract", {"difference"}},
       {"subtraction", {"difference"}},
       {"common", {"intersection"}},

@@ -183,6 +183,16 @@ TEST(BodyMesh, AHoleThatBreaksOutIsNoBody) {
   EXPECT_TRUE(drilled_block(1.9999).is_valid());
 }
 
+// Around the middle's values, by bounds of the next derivatives: |d[k + 1]| <= 1 in x and y, 2^(k + 1) height / 2 in z.
+CurveEnclosure around(const CurveJet& middle, double half, double height) {
+  CurveEnclosure all;
+  for (int k = 0; k <= middle.order; ++k) {
+    const Vec3 far = half * Vec3(1, 1, 0.5 * height * std::pow(2, k + 1));
+    all.d[k] = {middle.d[k] - far, middle.d[k] + far};
+  }
+  return all;
+}
+
 // A cylinder with a curved, twisted top: a Bezier patch cut by the circle, so the top's rim is a space curve and the
 // wall is trimmed by it.
 class RimCurve final : public Curve {
@@ -198,10 +208,8 @@ class RimCurve final : public Curve {
                   0.5 * kHeight * std::pow(2, k) * std::sin(2 * t + 0.5 * kPi * k) + (k == 0 ? 1 : 0)};
     return jet;
   }
-  CurveEnclosure enclose(const Interval&, int) const override {
-    CurveEnclosure all;
-    for (int k = 0; k < 3; ++k) all.d[k] = {Vec3(-2), Vec3(2)};
-    return all;
+  CurveEnclosure enclose(const Interval& t, int order) const override {
+    return around(evaluate(t.middle(), order), 0.5 * t.width(), kHeight);
   }
 };
 
@@ -216,11 +224,8 @@ class WallRim final : public Curve {
     for (int k = 0; k <= order; ++k) jet.d[k] = {k == 0 ? t : k == 1 ? 1.0 : 0.0, rim.d[k].z / 2, 0};
     return jet;
   }
-  CurveEnclosure enclose(const Interval& t, int) const override {
-    CurveEnclosure all;
-    all.d[0] = {{t.lo, 0.4, 0}, {t.hi, 0.6, 0}};
-    all.d[1] = all.d[2] = {Vec3(-2), Vec3(2)};
-    return all;
+  CurveEnclosure enclose(const Interval& t, int order) const override {
+    return around(evaluate(t.middle(), order), 0.5 * t.width(), RimCurve::kHeight);
   }
 };
 
