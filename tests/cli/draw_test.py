@@ -219,6 +219,34 @@ camera: { view: top }
             self.write("filled.yaml", (self.folder / "scene.yaml").read_text() + "drawing: { ground: fill }\n")
             self.assertNotIn("warning", self.run_program("draw", "filled.yaml", "-o", "x.svg")[1])
 
+    def test_annotations_follow_the_object(self):
+        def texts(transform):
+            self.write("scene.yaml", f"""lekalo: 1
+geometry:
+  b: {{ type: box, size: [4, 3, 2] }}
+  h: {{ type: cylinder_body, center: [2, 1.5, -1], radius: 0.5, height: 4 }}
+  d: {{ type: difference, of: b, minus: h }}
+objects: [{{ shape: d{transform} }}]
+camera: {{ type: parallel, view: top }}
+drawing: {{ annotations: [{{ type: diameter_dimension, of: d.h.side }}, {{ type: label, at: {{ of: d.b.z_max, u: 1, v: 1 }}, text: top }}] }}
+image: {{ size: [80 mm, auto] }}
+""")
+            self.run_program("draw", "scene.yaml", "-o", "d.svg")
+            svg = (self.folder / "d.svg").read_text()
+            numbers = re.findall(r"-?\d+\.?\d*", svg[svg.index('class="lines"'):])
+            return [float(n) for n in numbers]
+        there, moved = texts(""), texts(", transform: { translate: [10, 0, 0] }")
+        self.assertEqual(len(there), len(moved))
+        for a, b in zip(there, moved):
+            self.assert_near(a, b, 2e-3)
+
+    def test_words_of_others_lead_to_ours(self):
+        self.write("scene.yaml", "lekalo: 1\ngeometry:\n  a: { type: line, from: [0, 0, 0], to: [1, 0, 0] }\n  b: { type: cube, size: [1, 1, 1] }\n"
+                                 "objects: [b]\ncamera: { type: perspective, position: [4, 4, 4], look_at: [0, 0, 0], fov: 40 }\n")
+        told = self.run_program("check", "scene.yaml", code=3)[1]
+        for word in ("'segment'", "'box'", "'from'", "'at'", "'field_of_view'"):
+            self.assertIn(word, told)
+
     def test_sides_are_filled_with_their_own_materials(self):
         """A bowl shows its outside in front and its inside behind."""
         self.scene("s: { type: formula_surface, z: '0.9*x^2 + 0.9*y^2', domain: { u: [-1, 1], v: [-1, 1] } }",

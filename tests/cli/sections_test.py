@@ -52,6 +52,28 @@ class Sections(ProgramTest):
         self.assertIn("section_hatch", both[0])
         self.assertEqual(*both)
 
+    def test_operands_do_not_show_in_cut_faces(self):
+        """A plane through the axes of two cylinders that are one body: no outline of one crosses the other's cut."""
+        def length(through):
+            self.write("s.yaml", f"""lekalo: 1
+geometry:
+  a: {{ type: cylinder_body, radius: 1, height: 4 }}
+  b: {{ type: cylinder_body, center: [-2, 0, 2], normal: x, radius: 0.6, height: 4 }}
+  u: {{ type: union, of: [a, b] }}
+objects: [{{ shape: u, section: {{ planes: {{ normal: -y, through: [0, {through}, 0] }} }} }}]
+camera: {{ view: front }}
+image: {{ size: [80 mm, auto] }}
+""")
+            self.run_program("draw", "s.yaml", "-o", "s.svg")
+            svg = (self.folder / "s.svg").read_text()
+            lines = svg[svg.index('class="lines"'):]
+            total = 0
+            for path in re.findall(r' d="([^"]*)"', lines):
+                points = [tuple(map(float, p)) for p in re.findall(r"(-?[\d.]+)[ ,](-?[\d.]+)", path)]
+                total += sum(math.dist(a, b) for a, b in zip(points, points[1:] + points[:1] * ("Z" in path)))
+            return total
+        self.assert_near(length(0) / length(0.02), 1, 2e-3)
+
     def test_steps_are_no_edges(self):
         """The plane between two others is not drawn where the section is looked at, in pictures from other sides it is."""
         def upright(view):
