@@ -74,17 +74,25 @@ Vec2 half_sides(int width, int height, double margin) {
 }
 
 // Place of the eye on the axis x or y so that the pictures of points (x, y, depth) reach equally far to both sides.
-double centred(const std::vector<Vec3>& points, int axis, double distance) {
+double centred(std::vector<Vec3> points, int axis, double distance) {
   double lo = kInfinity, hi = -kInfinity;
   for (const Vec3& p : points) {
     lo = std::min(lo, p[axis]);
     hi = std::max(hi, p[axis]);
   }
+  const auto tangent = [&](const Vec3& p, double c) { return (p[axis] - c) / (p.z + distance); };
+  const auto tangents = [&](double c) {
+    Range all;
+    for (const Vec3& p : points) all.include(tangent(p, c));
+    return all;
+  };
   for (int i = 0; i < 100 && lo < hi; ++i) {
     const double c = 0.5 * (lo + hi);
-    Range tangents;
-    for (const Vec3& p : points) tangents.include((p[axis] - c) / (p.z + distance));
-    (tangents.middle() > 0 ? lo : hi) = c;
+    (tangents(c).middle() > 0 ? lo : hi) = c;
+    if (points.size() <= 16) continue;
+    // Tangents fall as the eye moves on: what reaches as far as others nowhere between lo and hi does not count.
+    const double first = tangents(lo).lo, last = tangents(hi).hi;
+    std::erase_if(points, [&](const Vec3& p) { return tangent(p, lo) < last && tangent(p, hi) > first; });
   }
   return 0.5 * (lo + hi);
 }

@@ -179,6 +179,7 @@ void add_leader(AnnotationWork& work) {
   }
   Label label = work.page_label(work.words("text"), to);
   label.side = f.has("side") ? f.text("side") : to.x >= at.x ? "right" : "left";
+  label.on_page = f.get<Anchor>("to").on_page;
   work.add(std::move(label));
 }
 
