@@ -113,6 +113,9 @@ struct StopSystem {
   }
 };
 
+// Of the mean speed: slower is a stop.
+constexpr double kStopped = 1e-6;
+
 class SelfIntersections {
  public:
   SelfIntersections(const Curve& curve, double tolerance)
@@ -122,6 +125,7 @@ class SelfIntersections {
         is_closed_(curve.is_closed() || (curve.period() > 0 && domain_.width() >= curve.period())) {
     const Box3 box = bounds(curve);
     tolerance_ = tolerance * std::max(box.diameter(), 1e-300);
+    slowest_ = kStopped * box.diameter() / domain_.width();
     rounding_ = rounding_in(box);
     least_ = min_box(tolerance) * domain_.width();
   }
@@ -161,8 +165,15 @@ class SelfIntersections {
       const auto found = search_roots<1, 3>(StopSystem{curve_, piece.domain}, ParameterBox<1>{piece.domain}, options);
       for (const auto& t : found.isolated) stops_.push_back(t[0]);
       for (const auto& t : found.open)
-        if (t[0].width() <= near()) stops_.push_back(t[0].middle());
+        if (t[0].width() <= near() && !goes_on(t[0].lo, t[0].hi)) stops_.push_back(t[0].middle());
     }
+  }
+
+  // Between two places so near that enclosures tell nothing: neither stops nor turns back, by the tangents beside them.
+  bool goes_on(double from, double to) const {
+    const Vec3 before = curve_.evaluate(domain_.clamp(from - 2 * least_), 1).d[1],
+               behind = curve_.evaluate(domain_.clamp(to + 2 * least_), 1).d[1];
+    return glm::dot(before, behind) > 0 && glm::length(before) > slowest_ && glm::length(behind) > slowest_;
   }
 
   // Where else the curve goes through its point at s, to the tolerance.
@@ -299,9 +310,13 @@ class SelfIntersections {
     for (const auto& at : found.isolated) add(at[0], at[1], false);
     for (const auto& box : found.open) {
       if (may_be_cusp(box)) {
-        // Where r' does not vanish the curve turns back at a corner, or stops but for less than the least box.
+        // Where r' does not vanish the curve turns back at a corner, or stops but for less than the least box. Where it
+        // goes on, nothing is known but that its enclosures are wide, as those of intersections beside poles.
         const Interval both = intersect(box[0], box[1]);
-        add_cusp(both.width() > 0 ? both.middle() : box[0].hi);
+        const bool at_seam = box[0].lo > box[1].hi + 2 * least_;
+        if (at_seam ? !goes_on(box[0].lo, box[1].hi)
+                    : !goes_on(std::min(box[0].lo, box[1].lo), std::max(box[0].hi, box[1].hi)))
+          add_cusp(both.width() > 0 ? both.middle() : box[0].hi);
         continue;
       }
       ParameterPoint<2> middle, reach;
@@ -361,6 +376,7 @@ class SelfIntersections {
   const CurveProjector projector_;
   const bool is_closed_;
   double tolerance_ = 0;  // a length
+  double slowest_ = 0;    // speed that is none
   double rounding_ = 0;   // likewise: what it leaves between places where the curve meets itself
   double least_ = 0;      // of the parameter
   std::vector<double> stops_;

@@ -105,6 +105,24 @@ TEST(CurveWithItself, CuspsAreNamed) {
   intersections_of(curve({"t^2", "t^4+t^5/2", "0"}, {-1, 1}), 1, SelfIntersectionKind::cusp);
 }
 
+// A helix whose derivatives are not enclosed about t = 1, as those of traced curves beside poles.
+class HalfKnown final : public Curve {
+ public:
+  Interval domain() const override { return helix_.domain(); }
+  CurveJet evaluate(double t, int order) const override { return helix_.evaluate(t, order); }
+  CurveEnclosure enclose(const Interval& t, int order) const override {
+    CurveEnclosure result = helix_.enclose(t, order);
+    if (intersect(t, {1 - 1e-6, 1 + 1e-6}).empty()) return result;
+    for (int k = 1; k <= order; ++k) result.d[k] = {Vec3(-2), Vec3(2)};
+    return result;
+  }
+
+ private:
+  FormulaCurve helix_ = curve({"cos(t)", "sin(t)", "0.1*t"}, {0, 2});
+};
+
+TEST(CurveWithItself, WideEnclosuresAreNoCusps) { intersections_of(HalfKnown(), 0); }
+
 TEST(CurveWithItself, TouchesItself) {
   const CurveSelfIntersections found =
       intersections_of(curve({"cos(t)", "sin(t)*cos(t)^2", "0"}, {0.1, kTurn - 0.1}), 1, SelfIntersectionKind::contact);
