@@ -171,7 +171,7 @@ class Search {
   }
 
   void visit_all(const std::vector<Box>& level) {
-    if constexpr (requires { requires System::kKeepsNothing; }) {
+    if constexpr (requires { requires System::kThreadSafe; }) {
       constexpr size_t kAtOnce = 512, kForOneThread = 8;
       std::vector<Examined> all(std::min(level.size(), kAtOnce));
       for (size_t first = 0; first < level.size(); first += kAtOnce) {
@@ -194,8 +194,8 @@ class Search {
     Examined result;
     for (const Box& known : options_.settled)
       if (contains<N>(known, box)) return result;
-    if constexpr (requires { system_.is_excluded(box); })
-      if (system_.is_excluded(box)) return result;
+    if constexpr (requires { system_.holds_none(box); })
+      if (system_.holds_none(box)) return result;
     const SystemValue<Interval, N, M> range = system_.enclose(box);
     for (int k = 0; k < M; ++k)
       if (range.value[k].lo > options_.rounding[k] || range.value[k].hi < -options_.rounding[k]) return result;
@@ -805,9 +805,9 @@ class Search {
 //   Vec3 motion(const ParameterPoint<N>&, const ParameterPoint<N>&) const
 //     velocity in space: at a place, moving so
 // and may have
-//   static constexpr bool kKeepsNothing = true
+//   static constexpr bool kThreadSafe = true
 //     enclose and evaluate_middle may be asked from many threads at once
-//   bool is_excluded(const ParameterBox<N>&) const
+//   bool holds_none(const ParameterBox<N>&) const
 //     at less cost than enclose: whether a box holds no solution
 template <int N, int M = N - 1, class System>
 SolutionCurves<N> search_solution_curves(const System& system, const ParameterBox<N>& domain,

@@ -72,7 +72,8 @@ struct CurveProjector::Prepared {
   std::vector<Piece> pieces;
 
   Prepared(CurvePtr given, const std::vector<CurvePiece>& given_pieces)
-      : curve(std::move(given)), domain(curve->domain()), size(std::max(bounds(*curve).diameter(), 1e-300)) {
+      : curve(std::move(given)), domain(curve->domain()) {
+    Box3 all;
     // An arc of a periodic curve has ends.
     closed = curve->is_closed() ||
              (curve->period() > 0 && std::abs(curve->period() - domain.width()) <= kDomainSlack * domain.width());
@@ -83,8 +84,11 @@ struct CurveProjector::Prepared {
         own.polynomial.emplace(piece.points, Vec3(piece.points[0]) / piece.points[0].w);
       own.begin = jet_at_end(piece.domain, piece.domain.lo);
       own.end = jet_at_end(piece.domain, piece.domain.hi);
-      own.box = curve->enclose(piece.domain, 0).d[0];
+      if (!piece.is_rational() || !control_point_box(piece.points, own.box))
+        own.box = curve->enclose(piece.domain, 0).d[0];
+      all.include(own.box);
     }
+    size = std::max(all.diameter(), 1e-300);
   }
 
  private:

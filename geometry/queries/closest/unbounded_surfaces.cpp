@@ -22,7 +22,16 @@ Box3 seen_from(const Frame& frame, const Box3& box) {
   return local.inflated(std::max(box.diameter(), 1e-3 * glm::length(box.center() - frame.origin)) + 1e-300);
 }
 
-Interval clamped(const Interval& domain, double lo, double hi) { return {domain.clamp(lo), domain.clamp(hi)}; }
+// Of a domain that has an end on one side: what lies wholly beyond is nearest to a strip along that.
+Interval clamped(const Interval& domain, double lo, double hi) {
+  Interval part{domain.clamp(lo), domain.clamp(hi)};
+  if (part.width() > 0) return part;
+  if (part.lo == domain.lo)
+    part.hi = domain.clamp(part.lo + (hi - lo));
+  else
+    part.lo = domain.clamp(part.hi - (hi - lo));
+  return part;
+}
 
 SurfacePtr part_of(const Plane& plane, const Box3& box) {
   const Box3 local = seen_from(plane.frame(), box);
@@ -83,6 +92,7 @@ struct Gap {
   Vec3 on_a{0}, on_b{0};  // no places of cylinders and planes that meet
   double distance = 0;
   bool isolated = false;
+  bool coaxial = false;
 };
 
 // Parallel ones have a gap all along, others meet.
@@ -130,7 +140,7 @@ Gap between_cylinders(const Frame& a, double radius_a, const Frame& b, double ra
       // Outside of each other, or one about the other.
       const bool outside = apart > radius_a + radius_b;
       const double side_a = outside || radius_a > radius_b ? 1 : -1, side_b = outside ? -1 : side_a;
-      return {level + side_a * radius_a * out, b.origin + side_b * radius_b * out, gap};
+      return {level + side_a * radius_a * out, b.origin + side_b * radius_b * out, gap, false, apart == 0};
     }
     // The circles cross at the distance x from the first axis.
     const double x = (apart * apart + radius_a * radius_a - radius_b * radius_b) / (2 * apart);
@@ -187,14 +197,10 @@ std::optional<Distance> unbounded_distance(const Surface& a, const Surface& b) {
     minimum.isolated = true;
   } else if (!minimum.isolated) {
     // As far as both are parallel: without end along axes and planes; round cylinders only where they are coaxial.
-    const auto range = [](const Whole& of, const Whole& other, const DistancePlace& at) {
+    const auto range = [&](const Whole& of, const Whole& other, const DistancePlace& at) {
       const Interval endless = Interval::entire();
-      if (!of.is_plane()) {
-        const bool coaxial =
-            !other.is_plane() && glm::length(glm::cross(other.frame.origin - of.frame.origin, of.frame.z)) <=
-                                     kParallelDirections * (of.radius + other.radius);
-        return std::array<Interval, 2>{coaxial ? of.surface->domain().u : Interval(at.u), endless};
-      }
+      if (!of.is_plane())
+        return std::array<Interval, 2>{gap.coaxial ? of.surface->domain().u : Interval(at.u), endless};
       if (other.is_plane()) return std::array<Interval, 2>{endless, endless};
       // A line of the plane; along one of its axes, or as far as known.
       const Vec3 along = of.frame.to_local_direction(other.frame.z);

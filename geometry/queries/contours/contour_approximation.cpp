@@ -56,7 +56,7 @@ std::shared_ptr<const ContourSolution<4>> common_solution(const Contour& contour
   return common;
 }
 
-// Longest of the coordinates, as far as a few points tell.
+// The diameter of its box and the greatest of its coordinates, as far as a few points tell.
 struct Extent {
   double diameter, farthest;
 };

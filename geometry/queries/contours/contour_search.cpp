@@ -32,7 +32,7 @@ bool is_moved_onto_border(const SolutionArc<N>& arc, const ContourEquations<N>& 
 // The equations of a piece as the search asks them.
 template <int N>
 struct Searched {
-  static constexpr bool kKeepsNothing = N == 2;  // what surfaces do over rectangles is kept for pairs of them
+  static constexpr bool kThreadSafe = N == 2;  // what surfaces do over rectangles is kept for pairs of them
   const ContourEquations<N>& equations;
   std::array<KnownEnclosures, 2>& known;
 

@@ -9,7 +9,7 @@ namespace {
 // Unknowns x, y, z.
 struct InSpace {
   static constexpr int kUnknowns = 3;
-  static constexpr bool kKeepsNothing = true;
+  static constexpr bool kThreadSafe = true;
   const ImplicitFormula& formula;
   const std::vector<ImplicitSide>& sides;
   const ImplicitRegion& region;
@@ -19,7 +19,7 @@ struct InSpace {
   std::array<double, 2> errors = errors_of_values();
 
   // Most boxes hold nothing of the surface, which the formula alone tells.
-  bool is_excluded(const ParameterBox<3>& x) const {
+  bool holds_none(const ParameterBox<3>& x) const {
     const Interval value = formula.enclose(box_of(x));
     return value.lo > errors[0] || value.hi < -errors[0];
   }

@@ -45,6 +45,23 @@ double least(const Frame& axis, double radius, ToOther&& to_other) {
   return least;
 }
 
+TEST(UnboundedSurfaces, WithOneEndHaveItsBorder) {
+  const auto up = std::make_shared<CylinderSurface>(Frame(), 1, 1, Rectangle{{0, kTwoPi}, {0, kInfinity}});
+  EXPECT_NEAR(SurfaceProjector(up).foot_points({3, 0, 5}).foot_points[0].distance, 2, 1e-14);
+  EXPECT_NEAR(SurfaceProjector(up).foot_points({3, 0, -10}).foot_points[0].distance, std::hypot(2, 10), 1e-14);
+  const auto quarter = std::make_shared<Plane>(Frame(), Rectangle{{0, kInfinity}, {0, kInfinity}});
+  EXPECT_NEAR(SurfaceProjector(quarter).foot_points({-3, -4, 12}).foot_points[0].distance, 13, 1e-14);
+}
+
+TEST(UnboundedSurfaces, CoaxialCylindersAreAsNearAllAround) {
+  Frame far;
+  far.origin = {1e-13, 0, 1000};
+  const auto found = unbounded_distance(cylinder(Frame(), 1), cylinder(far, 3));
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->minima[0].distance, 2, 1e-14);
+  EXPECT_EQ(found->minima[0].range_a[0].width(), kTwoPi);
+}
+
 TEST(UnboundedSurfaces, PlanesAreApartOnlyWhereTheyAreParallel) {
   const Frame frame = frame_about({1, 2, 3}, glm::normalize(Vec3(1, 2, 2)));
   Frame other = frame;
