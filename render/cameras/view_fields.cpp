@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "render/model/objects.h"
+#include "render/model/section_faces.h"
 #include "render/scene/values/types.h"
 
 namespace lekalo::render {
@@ -38,7 +39,7 @@ class Showing {
     double copies = 0;
   };
 
-  bool shows(const Object& object) const { return identity(object.shape) == shape_; }
+  bool shows(const Object& object) const { return identity(shape_as_written(object)) == shape_; }
 
   Part part_of(const std::vector<Object>& objects) {
     Part part;

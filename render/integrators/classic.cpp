@@ -203,8 +203,7 @@ Spectrum Tracer::shade(const Ray& ray, const Interaction& seen, ClassicCoefficie
       break;
     }
     case Fresnel::pane: {
-      const Spectrum f = fresnel_dielectric(cosine, per_n0 * c.index);
-      const float both = f[0] < 1 ? 2 * f[0] / (1 + f[0]) : 1;
+      const auto both = static_cast<float>(pane_reflectance(fresnel_dielectric(cosine, per_n0 * c.index)[0]));
       mirror += both * transmission;
       transmission *= 1 - both;
       break;

@@ -17,6 +17,7 @@
 #include "render/lines/stroke_collector.h"
 #include "render/model/objects.h"
 #include "render/model/placed_objects.h"
+#include "render/model/section_faces.h"
 
 namespace lekalo::render {
 
@@ -79,12 +80,12 @@ void StrokeCollector::each_bounded_part(const Entity& shape, const std::function
 std::vector<StrokeCollector::PlacedShape> StrokeCollector::placements_of(const Entity& shape) const {
   std::vector<PlacedShape> found;
   PlacedObjects(model_.objects, [&](const Object& object) {
-    return &object != object_ && identity(object.shape) == identity(shape);
+    return &object != object_ && identity(shape_as_written(object)) == identity(shape);
   }).visit([&](const Object& object, const Affine& to_world, int placement) {
     found.push_back({shape, to_world, numbers_.at(&object), placement});
   });
   // A drawing's lines name each object's shape to itself too: it meets nothing there.
-  if (found.empty() && identity(object_->shape) != identity(shape)) found.push_back({shape, Affine(), -1});
+  if (found.empty() && identity(shape_as_written(*object_)) != identity(shape)) found.push_back({shape, Affine(), -1});
   return found;
 }
 

@@ -41,8 +41,7 @@ bool ClearLobe::smooth(const Sides& sides) const {
 }
 
 double ClearLobe::pane_reflectance(double cosine, const Sides& sides) const {
-  const double f = fresnel_dielectric(cosine, sides.near, index);
-  return f < 1 ? 2 * f / (1 + f) : 1;
+  return render::pane_reflectance(fresnel_dielectric(cosine, sides.near, index));
 }
 
 Spectrum ClearLobe::reflectance(double cosine, const Sides& sides) const {

@@ -1,8 +1,8 @@
 #include "render/mesh_files/model_file.h"
 
-#include <cmath>
 #include <mutex>
 
+#include "geometry/point_formulas.h"
 #include "render/image/module.h"
 #include "render/mesh_files/mesh_files.h"
 
@@ -23,7 +23,7 @@ FileModel read_model(const std::string& path) {
   if (!function(path.c_str(), model, error)) throw MeshFileError(path + ": " + error);
   for (const FileModel::Part& part : model.parts)
     for (const geometry::Vec3& p : part.mesh.points)
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      if (!geometry::is_finite(p))
         throw MeshFileError(path + ": a vertex of '" + part.name + "' has a coordinate that is no finite number");
   if (model.placed.empty()) throw MeshFileError(path + ": the model has no triangles");
   return model;

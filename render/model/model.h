@@ -46,6 +46,7 @@ struct ClipPlane {
 struct Object {
   std::string name;
   Entity shape;
+  std::optional<Entity> as_written;  // the shape that the scene names, where its boundary took its place
   geometry::Affine transform;
   MaterialPtr material;       // front, where the normal looks at the viewer
   MaterialPtr back_material;  // null: the same

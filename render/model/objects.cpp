@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "geometry/bodies/booleans/solid_boundary.h"
 #include "geometry/shapes/implicit/implicit_surface.h"
 #include "geometry/surfaces/analytic/plane.h"
 #include "render/model/section.h"
+#include "render/model/section_faces.h"
 #include "render/scene/values/types.h"
 
 namespace lekalo::render {
@@ -55,8 +57,10 @@ bool is_implicit(const Entity& entity) {
 void put_boundary_for_caps(Object& object) {
   const auto* shape = std::get_if<ShapePtr>(&object.shape);
   if (shape && has_boundary(**shape) &&
-      std::any_of(object.clips.begin(), object.clips.end(), [](const ClipPlane& clip) { return clip.cap; }))
+      std::any_of(object.clips.begin(), object.clips.end(), [](const ClipPlane& clip) { return clip.cap; })) {
+    object.as_written = shape_as_written(object);
     object.shape = boundary_of(*shape);
+  }
 }
 
 std::vector<std::string> line_kinds_of(const Entity& entity) {
@@ -84,12 +88,13 @@ bool is_plane(const Entity& entity) {
   return surface && dynamic_cast<const geometry::Plane*>(surface->get());
 }
 
-// Larger coordinates than these have squares of squares that single precision does not hold: rays would miss them.
+// Embree squares lengths in single precision, which ends at the square of 1.8e19: beyond, nothing is hit. Some is left
+// for what cameras and transforms add.
 constexpr double kMaxCoordinate = 1e15;
 
 // How far a shape reaches from the origin along an axis. Of curves and surfaces how near places all over them are: a
 // graph may leave the page towards a pole.
-double reach(const Entity& entity, const Affine& placed) {
+double reach(const Entity& entity, const Affine& placed, std::map<const Group*, double>& of_groups) {
   constexpr double kShares[] = {0.13, 0.37, 0.61, 0.89};
   const auto reach_of = [&](const Vec3& p) {
     const Vec3 at = glm::abs(placed.point(p));
@@ -121,6 +126,21 @@ double reach(const Entity& entity, const Affine& placed) {
     for (const Vertex& vertex : (*body)->vertices) far = std::max(far, reach_of(vertex.point));
   if (const auto* mesh = std::get_if<MeshPtr>(&entity)) far = reach_of_box(bounds(**mesh));
   if (const auto* shape = std::get_if<ShapePtr>(&entity)) far = reach_of_box((*shape)->bounds());
+  if (const auto* group = std::get_if<GroupPtr>(&entity)) {
+    // Once for all that show it, and so at most that far.
+    const auto [known, is_new] = of_groups.emplace(group->get(), 0);
+    if (is_new) {
+      double own = 0;
+      for (const Object& member : (*group)->objects)
+        own = std::max(own, reach(member.shape, member.transform, of_groups));
+      known->second = own;
+    }
+    const Mat3& linear = placed.linear;
+    for (int i = 0; i < 3; ++i)
+      far =
+          std::max(far, std::abs(placed.offset[i]) +
+                            known->second * (std::abs(linear[0][i]) + std::abs(linear[1][i]) + std::abs(linear[2][i])));
+  }
   return far;
 }
 
@@ -260,7 +280,8 @@ Objects objects_of(const Fields& fields) {
 }  // namespace
 
 void check_size(const Object& object) {
-  if (reach(object.shape, object.transform) > kMaxCoordinate)
+  std::map<const Group*, double> of_groups;
+  if (reach(object.shape, object.transform, of_groups) > kMaxCoordinate)
     throw FieldError("shape", fmt::format("'{}' has coordinates beyond {:g}", object.name, kMaxCoordinate),
                      "measure in a larger unit");
 }

@@ -68,7 +68,7 @@ Annotation placed(const Annotation& annotation, const std::vector<Object>& objec
     if (!annotation.values.holds<ShapeSpokenOf>(shape_field(field))) continue;
     const auto& spoken = annotation.values.get<ShapeSpokenOf>(shape_field(field));
     const PlacedObjects shown(objects,
-                              [&](const Object& object) { return identity(before_section(object)) == spoken.shape; });
+                              [&](const Object& object) { return identity(shape_as_written(object)) == spoken.shape; });
     if (shown.count() == 0 || shown.count() > kMostVisited) continue;
     Affine to_world;
     bool as_written = false;

@@ -46,7 +46,12 @@ void renumber_face_materials(Object& object) {
   object.material = std::make_shared<FaceMaterials>(faced->body(), std::move(faces));
 }
 
+Entity shape_as_written(const Object& object) {
+  return object.as_written ? *object.as_written : before_section(object);
+}
+
 void put_before_section(Object& object, const BodyPtr& body) {
+  object.as_written = shape_as_written(object);
   const Csg* left = left_by_section(object);
   if (!left) {
     object.shape = body;

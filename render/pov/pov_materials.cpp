@@ -55,8 +55,8 @@ std::string reflection(const ClassicCoefficients& c, const std::string& name, Po
                          pov_rgb(c.mirror + c.transmission));
     case Fresnel::pane: {
       notes.add(name + ": POV-Ray has no panes of one surface; their reflectance at right angles is taken");
-      const float f = fresnel_dielectric(1, c.index)[0];
-      return fmt::format(" reflection {{ {} }}", pov_rgb(c.mirror + 2 * f / (1 + f) * c.transmission));
+      const auto both = static_cast<float>(pane_reflectance(fresnel_dielectric(1, c.index)[0]));
+      return fmt::format(" reflection {{ {} }}", pov_rgb(c.mirror + both * c.transmission));
     }
     case Fresnel::conductor:
       if (c.mirror.is_zero()) return "";

@@ -220,14 +220,14 @@ camera: { view: top }
             self.assertNotIn("warning", self.run_program("draw", "filled.yaml", "-o", "x.svg")[1])
 
     def test_annotations_follow_the_object(self):
-        def texts(transform):
+        def texts(object):
             self.write("scene.yaml", f"""lekalo: 1
 geometry:
   b: {{ type: box, size: [4, 3, 2] }}
   h: {{ type: cylinder_body, center: [2, 1.5, -1], radius: 0.5, height: 4 }}
   d: {{ type: difference, of: b, minus: h }}
-objects: [{{ shape: d{transform} }}]
-camera: {{ type: parallel, view: top }}
+objects: [{{ shape: d{object} }}]
+camera: {{ type: parallel, view: top, frame: d }}
 drawing: {{ annotations: [{{ type: diameter_dimension, of: d.h.side }}, {{ type: label, at: {{ of: d.b.z_max, u: 1, v: 1 }}, text: top }}] }}
 image: {{ size: [80 mm, auto] }}
 """)
@@ -235,10 +235,13 @@ image: {{ size: [80 mm, auto] }}
             svg = (self.folder / "d.svg").read_text()
             numbers = re.findall(r"-?\d+\.?\d*", svg[svg.index('class="lines"'):])
             return [float(n) for n in numbers]
-        there, moved = texts(""), texts(", transform: { translate: [10, 0, 0] }")
-        self.assertEqual(len(there), len(moved))
-        for a, b in zip(there, moved):
-            self.assert_near(a, b, 2e-3)
+        # A cap shows the solid's boundary in its place.
+        for clip in ("", ", clip: { through: [0, 0, 1.9], normal: z, cap: true }"):
+            there, moved = texts(clip), texts(clip + ", transform: { translate: [10, 0, 0] }")
+            self.assertGreater(len(there), 30)
+            self.assertEqual(len(there), len(moved))
+            for a, b in zip(there, moved):
+                self.assert_near(a, b, 2e-3)
 
     def test_words_of_others_lead_to_ours(self):
         self.write("scene.yaml", "lekalo: 1\ngeometry:\n  a: { type: line, from: [0, 0, 0], to: [1, 0, 0] }\n  b: { type: cube, size: [1, 1, 1] }\n"
@@ -266,7 +269,10 @@ image: {{ size: [80 mm, auto] }}
         self.write("panels.yaml", (self.folder / "scene.yaml").read_text() + "panels: { p: { camera: { view: front } }, "
                    "q: { camera: { view: top } }, r: { camera: { view: left } } }\n")
         lines = {}
-        for name in ("scene", "panels"):
+        # Views without solids are found side by side.
+        self.write("side_by_side.yaml", "lekalo: 1\ngeometry: { t: { type: torus_surface, major_radius: 2, minor_radius: 1 } }\n"
+                   "panels: { p: { camera: { view: isometric } }, q: { camera: { view: { azimuth: 20, elevation: 30 } } } }\n")
+        for name in ("scene", "panels", "side_by_side"):
             errors = self.run_program("draw", f"{name}.yaml", "-o", "x.svg", "--stats")[1]
             seconds = {what: float(time) for what, time in re.findall(r"([a-z ]+) ([\d.]+) s", errors)}
             whole = seconds.pop(" in all")

@@ -8,7 +8,7 @@
 
 namespace lekalo::render {
 
-// The types that a word of other modellers, books and renderers stands for, the most usual first; none known: empty.
+// The types that a word of other modellers, books and renderers stands for; none known: empty.
 std::span<const std::string_view> types_called(std::string_view word);
 
 // The field among those known that is called so elsewhere; empty if none is.
