@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <stdexcept>
 
 #include "geometry/bodies/booleans/solid_boundary.h"
@@ -94,7 +93,7 @@ constexpr double kMaxCoordinate = 1e15;
 
 // How far a shape reaches from the origin along an axis. Of curves and surfaces how near places all over them are: a
 // graph may leave the page towards a pole.
-double reach(const Entity& entity, const Affine& placed, std::map<const Group*, double>& of_groups) {
+double reach(const Entity& entity, const Affine& placed) {
   constexpr double kShares[] = {0.13, 0.37, 0.61, 0.89};
   const auto reach_of = [&](const Vec3& p) {
     const Vec3 at = glm::abs(placed.point(p));
@@ -126,20 +125,11 @@ double reach(const Entity& entity, const Affine& placed, std::map<const Group*, 
     for (const Vertex& vertex : (*body)->vertices) far = std::max(far, reach_of(vertex.point));
   if (const auto* mesh = std::get_if<MeshPtr>(&entity)) far = reach_of_box(bounds(**mesh));
   if (const auto* shape = std::get_if<ShapePtr>(&entity)) far = reach_of_box((*shape)->bounds());
-  if (const auto* group = std::get_if<GroupPtr>(&entity)) {
-    // Once for all that show it, and so at most that far.
-    const auto [known, is_new] = of_groups.emplace(group->get(), 0);
-    if (is_new) {
-      double own = 0;
-      for (const Object& member : (*group)->objects)
-        own = std::max(own, reach(member.shape, member.transform, of_groups));
-      known->second = own;
-    }
-    const Mat3& linear = placed.linear;
-    for (int i = 0; i < 3; ++i)
-      far =
-          std::max(far, std::abs(placed.offset[i]) +
-                            known->second * (std::abs(linear[0][i]) + std::abs(linear[1][i]) + std::abs(linear[2][i])));
+  // The first of a group stands for all: others may lie far off, and copies of copies are too many.
+  const auto* group = std::get_if<GroupPtr>(&entity);
+  if (group && !(*group)->objects.empty()) {
+    const Object& first = (*group)->objects.front();
+    far = reach(first.shape, placed * first.transform);
   }
   return far;
 }
@@ -280,8 +270,7 @@ Objects objects_of(const Fields& fields) {
 }  // namespace
 
 void check_size(const Object& object) {
-  std::map<const Group*, double> of_groups;
-  if (reach(object.shape, object.transform, of_groups) > kMaxCoordinate)
+  if (reach(object.shape, object.transform) > kMaxCoordinate)
     throw FieldError("shape", fmt::format("'{}' has coordinates beyond {:g}", object.name, kMaxCoordinate),
                      "measure in a larger unit");
 }

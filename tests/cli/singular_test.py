@@ -234,7 +234,7 @@ objects: { shape: ball, transform: { scale: 1e20 } }
         out, errors = self.run_program("check", "shown.yaml", code=SCENE_ERROR)
         self.assertIn("shown.yaml:3:", errors)
         self.write("group.yaml", """lekalo: 1
-geometry: { ball: { type: ball, radius: 1 }, g: { type: group, objects: [{ shape: ball, transform: { scale: 1e10 } }] } }
+geometry: { ball: { type: ball, radius: 1 }, g: { type: group, of: [{ shape: ball, transform: { scale: 1e10 } }] } }
 objects: { shape: g, transform: { scale: 1e10 } }
 """)
         self.assertIn("group.yaml:3:", self.run_program("check", "group.yaml", code=SCENE_ERROR)[1])
