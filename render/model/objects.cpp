@@ -90,6 +90,8 @@ bool is_plane(const Entity& entity) {
 // Embree squares lengths in single precision, which ends at the square of 1.8e19: beyond, nothing is hit. Some is left
 // for what cameras and transforms add.
 constexpr double kMaxCoordinate = 1e15;
+// Of places of groups: what they hold is met in their own coordinates.
+constexpr double kMaxOfGroups = 1e18;
 
 // How far a shape reaches from the origin along an axis. Of curves and surfaces how near places all over them are: a
 // graph may leave the page towards a pole.
@@ -270,8 +272,9 @@ Objects objects_of(const Fields& fields) {
 }  // namespace
 
 void check_size(const Object& object) {
-  if (reach(object.shape, object.transform) > kMaxCoordinate)
-    throw FieldError("shape", fmt::format("'{}' has coordinates beyond {:g}", object.name, kMaxCoordinate),
+  const double most = std::holds_alternative<GroupPtr>(object.shape) ? kMaxOfGroups : kMaxCoordinate;
+  if (reach(object.shape, object.transform) > most)
+    throw FieldError("shape", fmt::format("'{}' has coordinates beyond {:g}", object.name, most),
                      "measure in a larger unit");
 }
 

@@ -17,13 +17,13 @@ CORNER = "[[0, 0], [2, 0], [2, 1], [0, 1]]"
 
 
 class BadCurves(ProgramTest):
-    def refused(self, curve, field, *words, file="scene.yaml"):
-        """The curve has an error at the value of `field`, with these words and a cure."""
+    def refused(self, curve, field, *words):
+        """The curve has an error at the value of `field` (None: anywhere), with these words and a cure."""
         line = f"  it: {{ type: {curve} }}"
         self.write("scene.yaml", f"lekalo: 1\ngeometry:\n{line}\nlights: {{}}\n")
         error = self.run_program("check", "scene.yaml", code=SCENE_ERROR)[1]
         with self.subTest(curve):
-            if file == "scene.yaml" and field:
+            if field:
                 column = line.index(f" {field}: ") + len(field) + 4
                 self.assertIn(f"scene.yaml:3:{column}: ", error)
             for word in words:
@@ -115,10 +115,9 @@ class BadCurves(ProgramTest):
         self.write("word.csv", "x,y\n0,0\n1,2\n3,abc\n4,0\n6,1\n")
         self.write("short.csv", "0,0\n1,2\n3\n4,0\n")
         for name, (more, _, _) in {**THROUGH, **LINES, **NURBS}.items():
-            self.refused(f"{name}, points: {{ file: word.csv }}{more}", "points", "word.csv:4:3: expected a number, found 'abc'",
-                         "scene.yaml:3:", file="word.csv")
-            self.refused(f"{name}, points: {{ file: short.csv }}{more}", "points", "short.csv:3:1: this row has 1 cell",
-                         file="short.csv")
+            self.refused(f"{name}, points: {{ file: word.csv }}{more}", None, "word.csv:4:3: expected a number, found 'abc'",
+                         "scene.yaml:3:")
+            self.refused(f"{name}, points: {{ file: short.csv }}{more}", None, "short.csv:3:1: this row has 1 cell")
             self.refused(f"{name}, points: [[0, 0], [1, abc], [2, 0], [3, 1]]{more}", None, "unknown name 'abc'")
 
 

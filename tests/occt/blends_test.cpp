@@ -28,8 +28,7 @@
 #include "geometry/bodies/blends/blend_models.h"
 #include "geometry/bodies/blends/spandrels.h"
 #include "geometry/queries/measures/mass_properties.h"
-#include "occt/step_reader.h"
-#include "render/step/step_export.h"
+#include "occt/occt_body.h"
 #include "support/tier.h"
 
 namespace lekalo::render::blends_test {
@@ -38,17 +37,6 @@ namespace {
 using geometry::BlendModel;
 using geometry::Body;
 using geometry::Vec3;
-
-// By the STEP text that `export` writes.
-TopoDS_Shape occt_body(const Body& body) {
-  return tests::read_step(step_file({{"b", std::make_shared<Body>(body), {}, Vec3(0.5)}}, "b", "mm", 1e-9).text);
-}
-
-double occt_volume(const TopoDS_Shape& shape) {
-  GProp_GProps volume;
-  BRepGProp::VolumeProperties(shape, volume, 1e-9);
-  return volume.Mass();
-}
 
 // Planes, cylinders, cones, spheres and tori.
 bool is_elementary(const TopoDS_Shape& shape) {
@@ -85,7 +73,7 @@ struct Answer {
 
 Answer answer_of(const TopoDS_Shape& shape) {
   if (!BRepCheck_Analyzer(shape).IsValid()) return {0, false, "not valid"};
-  return {occt_volume(shape), is_elementary(shape), ""};
+  return {tests::occt_volume(shape), is_elementary(shape), ""};
 }
 
 template <class Algorithm>
@@ -168,9 +156,9 @@ struct Beside {
 // Where OCCT's volume is another one, it must be known otherwise that ours is right.
 void compare(const BlendModel& model, const std::string& name, Beside& beside) {
   ASSERT_FALSE(model.edges.empty()) << name;
-  const TopoDS_Shape shape = occt_body(model.body);
+  const TopoDS_Shape shape = tests::occt_body(model.body);
   const double whole = measure(model.body).volume.value;
-  EXPECT_NEAR(occt_volume(shape), whole, 1e-6 * whole) << name;
+  EXPECT_NEAR(tests::occt_volume(shape), whole, 1e-6 * whole) << name;
   const Answer answer = of_occt(shape, model, beside.seconds_of_occt);
   if (!answer.fault.empty()) {
     ++beside.failed[model.kind];
@@ -193,7 +181,7 @@ void compare(const BlendModel& model, const std::string& name, Beside& beside) {
   EXPECT_EQ(geometry::blend_checks::violations_of(body), "") << name;
   geometry::blend_checks::expect_smooth_borders(body);
   if (!model.is_chamfer) expect_balls(body, model.size, name);
-  const Answer own = answer_of(occt_body(body));
+  const Answer own = answer_of(tests::occt_body(body));
   EXPECT_EQ(own.fault, "") << name;
   const double volume = measure(body).volume.value;
   EXPECT_NEAR(own.volume, volume, 1e-6 * whole) << name;

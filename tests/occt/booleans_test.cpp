@@ -18,8 +18,7 @@
 
 #include "geometry/bodies/booleans/body_pairs.h"
 #include "geometry/bodies/booleans/boolean_checks.h"
-#include "occt/step_reader.h"
-#include "render/step/step_export.h"
+#include "occt/occt_body.h"
 #include "support/tier.h"
 
 namespace lekalo::render::booleans_test {
@@ -29,18 +28,6 @@ using geometry::Body;
 using geometry::BooleanOperation;
 
 constexpr double kVolume = 1e-6;  // of both operands'
-
-// By the STEP text that `export` writes.
-TopoDS_Shape occt_body(const Body& body) {
-  return tests::read_step(
-      step_file({{"b", std::make_shared<Body>(body), {}, geometry::Vec3(0.5)}}, "b", "mm", 1e-9).text);
-}
-
-double occt_volume(const TopoDS_Shape& shape) {
-  GProp_GProps volume;
-  BRepGProp::VolumeProperties(shape, volume, 1e-9);
-  return volume.Mass();
-}
 
 struct Answer {
   double volume = 0;
@@ -53,7 +40,7 @@ Answer volume_of(const TopoDS_Shape& a, const TopoDS_Shape& b) {
     Algorithm algorithm(a, b);
     if (algorithm.HasErrors()) return {0, "an error"};
     if (!BRepCheck_Analyzer(algorithm.Shape()).IsValid()) return {0, "not valid"};
-    return {occt_volume(algorithm.Shape()), ""};
+    return {tests::occt_volume(algorithm.Shape()), ""};
   } catch (const Standard_Failure& failure) {
     return {0, fmt::format("thrown: {}", failure.DynamicType()->Name())};
   }
@@ -88,12 +75,12 @@ TEST(BooleansBesideOcct, Volumes) {
   };
   for (int k = 0; k < pairs; ++k) {
     const geometry::BodyPair pair = geometry::BodyPairs(1000u + static_cast<unsigned>(k)).elementary();
-    const TopoDS_Shape a = occt_body(pair.a), b = occt_body(pair.b);
+    const TopoDS_Shape a = tests::occt_body(pair.a), b = tests::occt_body(pair.b);
     const double volume_a = measure(pair.a).volume.value, volume_b = measure(pair.b).volume.value,
                  scale = volume_a + volume_b;
     // It has the same operands.
-    EXPECT_NEAR(occt_volume(a), volume_a, kVolume * scale) << k << ", " << pair.kind;
-    EXPECT_NEAR(occt_volume(b), volume_b, kVolume * scale) << k << ", " << pair.kind;
+    EXPECT_NEAR(tests::occt_volume(a), volume_a, kVolume * scale) << k << ", " << pair.kind;
+    EXPECT_NEAR(tests::occt_volume(b), volume_b, kVolume * scale) << k << ", " << pair.kind;
     const auto compare = [&](const char* name, const Answer& own, const Answer& of_occt) {
       if (!own.fault.empty()) {
         ++refused;

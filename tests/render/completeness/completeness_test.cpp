@@ -204,19 +204,7 @@ class Comparison {
   double size_;
 };
 
-// A name that GoogleTest accepts.
-std::string word(std::string name) {
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
-
-class Completeness : public testing::TestWithParam<size_t> {
- protected:
-  static const std::vector<Entry>& entries() {
-    static const std::vector<Entry> all = all_entries();
-    return all;
-  }
-};
+using Completeness = OfAllEntries;
 
 void report(const std::string& kind, const Tally& tally) {
   tests::report_figure(kind + "_rays", tally.rays);
@@ -252,9 +240,8 @@ TEST_P(Completeness, NoMissAndNoFalseHit) {
   tests::report_figure("largest_difference_of_t", std::max(any.worst, aimed.worst));
 }
 
-std::string name_of(const testing::TestParamInfo<size_t>& info) { return word(all_entries()[info.param].name); }
-
-INSTANTIATE_TEST_SUITE_P(Surfaces, Completeness, testing::Range<size_t>(0, all_entries().size()), name_of);
+INSTANTIATE_TEST_SUITE_P(Surfaces, Completeness, testing::Range<size_t>(0, all_entries().size()),
+                         OfAllEntries::name_of);
 
 // Rays that the suite found wrong once; none is in the band.
 TEST(CompletenessOfRays, ThatWereWrongOnce) {

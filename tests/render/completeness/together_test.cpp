@@ -53,13 +53,7 @@ std::shared_ptr<const Model> model_on_ground(const Subject& subject) {
   return model;
 }
 
-class Together : public testing::TestWithParam<size_t> {
- protected:
-  static const std::vector<Entry>& entries() {
-    static const std::vector<Entry> all = all_entries();
-    return all;
-  }
-};
+using Together = OfAllEntries;
 
 TEST_P(Together, ListsOfRaysFindWhatTheirRaysFindAlone) {
   const Entry& entry = entries()[GetParam()];
@@ -92,13 +86,7 @@ TEST_P(Together, ListsOfRaysFindWhatTheirRaysFindAlone) {
   EXPECT_GT(hits, done / 20);
 }
 
-std::string name_of(const testing::TestParamInfo<size_t>& info) {
-  std::string name = all_entries()[info.param].name;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Surfaces, Together, testing::Range<size_t>(0, all_entries().size()), name_of);
+INSTANTIATE_TEST_SUITE_P(Surfaces, Together, testing::Range<size_t>(0, all_entries().size()), OfAllEntries::name_of);
 
 }  // namespace
 }  // namespace lekalo::render::completeness::together_test

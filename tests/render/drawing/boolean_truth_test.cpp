@@ -18,8 +18,9 @@ namespace {
 
 using namespace geometry;
 
+constexpr std::array kOperations{BooleanOperation::unite, BooleanOperation::intersect, BooleanOperation::subtract};
+
 TEST(BooleanTruth, HiddenLines) {
-  constexpr std::array kOperations{BooleanOperation::unite, BooleanOperation::intersect, BooleanOperation::subtract};
   using Kind = oracle::sight::PairSolid::Kind;
   constexpr std::array kInOracle{Kind::unite, Kind::intersect, Kind::subtract};
   Views views(43);
@@ -75,7 +76,6 @@ void expect_fast(const Body& body, Views& views, const std::string& what) {
 }
 
 void expect_fast_results(int pairs, unsigned seed, const std::function<BodyPair(BodyPairs&, int)>& make) {
-  constexpr std::array kOperations{BooleanOperation::unite, BooleanOperation::intersect, BooleanOperation::subtract};
   Views views(seed);
   int bodies = 0;
   for (int k = 0; k < pairs; ++k) {

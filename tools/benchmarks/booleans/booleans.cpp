@@ -16,8 +16,7 @@
 
 #include "geometry/bodies/booleans/body_pairs.h"
 #include "geometry/queries/measures/mass_properties.h"
-#include "occt/step_reader.h"
-#include "render/step/step_export.h"
+#include "occt/occt_body.h"
 #include "timed.h"
 
 namespace lekalo::benchmarks {
@@ -31,13 +30,10 @@ using geometry::BooleanOperation;
 constexpr double kSame = 1e-9;  // of the volume
 
 // None where OCCT does not have the same body.
-std::optional<TopoDS_Shape> occt_body(const Body& body) {
-  const TopoDS_Shape shape =
-      tests::read_step(render::step_file({{"b", std::make_shared<Body>(body), {}, {}, {}, {}}}, "b", "mm", 1e-9).text);
-  GProp_GProps volume;
-  BRepGProp::VolumeProperties(shape, volume, 1e-10);
+std::optional<TopoDS_Shape> same_in_occt(const Body& body) {
+  const TopoDS_Shape shape = tests::occt_body(body);
   const double own = measure(body).volume.value;
-  return std::abs(volume.Mass() - own) <= kSame * own ? std::optional(shape) : std::nullopt;
+  return std::abs(tests::occt_volume(shape) - own) <= kSame * own ? std::optional(shape) : std::nullopt;
 }
 
 template <class Work>
@@ -75,7 +71,7 @@ void print_row(const std::string& name, int pairs, int runs, const Make& make) {
   int compared = 0;
   for (int k = 0; k < pairs; ++k) {
     const BodyPair pair = make(static_cast<unsigned>(k));
-    const auto a = occt_body(pair.a), b = occt_body(pair.b);
+    const auto a = same_in_occt(pair.a), b = same_in_occt(pair.b);
     if (!a || !b) continue;
     const double own = least_seconds(runs, [&] { own_booleans(pair); }), of_occt = least_seconds(runs, [&] {
                                                                            occt_boolean<BRepAlgoAPI_Fuse>(*a, *b);
