@@ -91,7 +91,7 @@ bool is_plane(const Entity& entity) {
 // for what cameras and transforms add.
 constexpr double kMaxCoordinate = 1e15;
 // Of places of groups: what they hold is met in their own coordinates.
-constexpr double kMaxOfGroups = 1e18;
+constexpr double kMaxOfGroups = 1e19;
 
 // How far a shape reaches from the origin along an axis. Of curves and surfaces how near places all over them are: a
 // graph may leave the page towards a pole.
