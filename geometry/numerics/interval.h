@@ -27,17 +27,34 @@
 
 namespace lekalo::geometry {
 
+// Is x a number that is neither zero nor infinite? The doubles next to such an x differ by one in their bits.
+constexpr bool is_finite_and_not_zero(double x) {
+  constexpr std::uint64_t kMagnitude = ~std::uint64_t{0} >> 1;
+  constexpr auto kInfinity = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
+  return (std::bit_cast<std::uint64_t>(x) & kMagnitude) - 1 < kInfinity - 1;
+}
+
 // The next double above x; infinity stays, NaN becomes infinity.
 constexpr double next_up(double x) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (x == 0) return std::numeric_limits<double>::denorm_min();
-  if (!(x < kInfinity)) return kInfinity;
-  const auto bits = std::bit_cast<std::int64_t>(x);
-  return std::bit_cast<double>(bits + (1 | (bits >> 63)));
+  if (!is_finite_and_not_zero(x)) [[unlikely]] {
+    if (x == 0) return std::numeric_limits<double>::denorm_min();
+    return x < 0 ? std::numeric_limits<double>::lowest() : kInfinity;
+  }
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  return std::bit_cast<double>(bits + 1 - 2 * (bits >> 63));
 }
 
 // The next double below x; minus infinity stays, NaN becomes minus infinity.
-constexpr double next_down(double x) { return x == x ? -next_up(-x) : -std::numeric_limits<double>::infinity(); }
+constexpr double next_down(double x) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!is_finite_and_not_zero(x)) [[unlikely]] {
+    if (x == 0) return -std::numeric_limits<double>::denorm_min();
+    return x > 0 ? std::numeric_limits<double>::max() : -kInfinity;
+  }
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  return std::bit_cast<double>(bits - 1 + 2 * (bits >> 63));
+}
 
 // Plain numbers: the names that <cmath> lacks. The sign of zero is zero, of NaN NaN.
 template <class S>
@@ -82,24 +99,34 @@ struct Interval {
   }
   friend constexpr Interval operator*(const Interval& a, const Interval& b) {
     if ((a.lo == 0 && a.hi == 0) || (b.lo == 0 && b.hi == 0)) return 0.0;
-    const double p = product(a.lo, b.lo), q = product(a.lo, b.hi), r = product(a.hi, b.lo), s = product(a.hi, b.hi);
-    Interval result{next_down(std::min(std::min(p, q), std::min(r, s))),
-                    next_up(std::max(std::max(p, q), std::max(r, s)))};
-    // Factors of known sign: an exact zero bound must not become a tiny number of the other sign.
-    const bool same_sign = (a.lo >= 0 && b.lo >= 0) || (a.hi <= 0 && b.hi <= 0);
-    const bool opposite = (a.lo >= 0 && b.hi <= 0) || (a.hi <= 0 && b.lo >= 0);
-    if (same_sign && result.lo < 0) result.lo = 0;
-    if (opposite && result.hi > 0) result.hi = 0;
+    double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
+    // Zero times infinity is zero here: the bound zero is attained, infinity is not.
+    if (p != p || q != q || r != r || s != s) [[unlikely]]
+      p = p == p ? p : 0, q = q == q ? q : 0, r = r == r ? r : 0, s = s == s ? s : 0;
+    const double least = std::min(std::min(p, q), std::min(r, s)), largest = std::max(std::max(p, q), std::max(r, s));
+    Interval result{next_down(least), next_up(largest)};
+    if (least == 0 || largest == 0) [[unlikely]] {
+      // Factors of known sign: an exact zero bound must not become a tiny number of the other sign.
+      const bool same_sign = (a.lo >= 0 && b.lo >= 0) || (a.hi <= 0 && b.hi <= 0);
+      const bool opposite = (a.lo >= 0 && b.hi <= 0) || (a.hi <= 0 && b.lo >= 0);
+      if (same_sign && result.lo < 0) result.lo = 0;
+      if (opposite && result.hi > 0) result.hi = 0;
+    }
     return result;
   }
   friend constexpr Interval operator/(const Interval& a, const Interval& b) {
     if (b.lo <= 0 && b.hi >= 0) return divided_by_zero(a, b);
-    const double p = quotient(a.lo, b.lo), q = quotient(a.lo, b.hi), r = quotient(a.hi, b.lo), s = quotient(a.hi, b.hi);
-    Interval result{next_down(std::min(std::min(p, q), std::min(r, s))),
-                    next_up(std::max(std::max(p, q), std::max(r, s)))};
-    const bool positive = b.lo > 0;
-    if (positive ? a.lo >= 0 : a.hi <= 0) result.lo = std::max(result.lo, 0.0);
-    if (positive ? a.hi <= 0 : a.lo >= 0) result.hi = std::min(result.hi, 0.0);
+    double p = a.lo / b.lo, q = a.lo / b.hi, r = a.hi / b.lo, s = a.hi / b.hi;
+    // Infinity by infinity: any quotient >= 0 or <= 0 is possible; the other corners supply the infinite bound.
+    if (p != p || q != q || r != r || s != s) [[unlikely]]
+      p = p == p ? p : 0, q = q == q ? q : 0, r = r == r ? r : 0, s = s == s ? s : 0;
+    const double least = std::min(std::min(p, q), std::min(r, s)), largest = std::max(std::max(p, q), std::max(r, s));
+    Interval result{next_down(least), next_up(largest)};
+    if (least == 0 || largest == 0) [[unlikely]] {
+      const bool positive = b.lo > 0;
+      if (positive ? a.lo >= 0 : a.hi <= 0) result.lo = std::max(result.lo, 0.0);
+      if (positive ? a.hi <= 0 : a.lo >= 0) result.hi = std::min(result.hi, 0.0);
+    }
     return result;
   }
   constexpr Interval& operator+=(const Interval& b) { return *this = *this + b; }
@@ -164,16 +191,6 @@ struct Interval {
  private:
   static constexpr double sum_down(double x) { return x == 0 ? 0.0 : next_down(x); }
   static constexpr double sum_up(double x) { return x == 0 ? 0.0 : next_up(x); }
-  // Zero times infinity is zero here: the bound zero is attained, infinity is not.
-  static constexpr double product(double a, double b) {
-    const double p = a * b;
-    return p == p ? p : 0.0;
-  }
-  // Infinity by infinity: any quotient >= 0 or <= 0 is possible; the other corners supply the infinite bound.
-  static constexpr double quotient(double a, double b) {
-    const double q = a / b;
-    return q == q ? q : 0.0;
-  }
   static constexpr Interval divided_by_zero(const Interval& a, const Interval& b) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     if (a.lo == 0 && a.hi == 0 && (b.lo != 0 || b.hi != 0)) return 0.0;
