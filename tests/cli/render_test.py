@@ -4,6 +4,7 @@ import math
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -107,8 +108,15 @@ class Pictures(ProgramTest):
         self.assertIn("--resume part.exr.partial", notes)
         self.assertNotEqual(self.bytes_of("part.exr"), self.bytes_of("whole.exr"))
         self.assertTrue((self.folder / "part.exr.partial").exists())
-        self.render(*samples, "-o", "part.exr", "--resume", "part.exr.partial")
-        self.assertFalse((self.folder / "part.exr.partial").exists())
+        shutil.copy(self.folder / "part.exr.partial", self.folder / "kept.partial")
+        for resume in (["--resume"], ["--resume", "kept.partial"]):
+            self.render(*samples, *resume, "-o", "part.exr")
+            self.assertFalse((self.folder / "part.exr.partial").exists())
+            self.assertEqual(self.bytes_of("part.exr"), self.bytes_of("whole.exr"))
+
+    def test_resume_without_a_file_begins_where_nothing_was_kept(self):
+        self.render("-o", "whole.exr")
+        self.render("-o", "part.exr", "--resume")
         self.assertEqual(self.bytes_of("part.exr"), self.bytes_of("whole.exr"))
 
     def interrupted(self, *arguments):

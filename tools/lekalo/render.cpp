@@ -282,6 +282,8 @@ int render_frame(Run& run, const Frame& frame, bool first) {
     model->film.layers = {"color"};
   const uint64_t identity = identity_of(options, scene);
   std::vector<std::string> resume = options.resume;
+  if (resume == std::vector<std::string>{""})  // no FILE is given: what was kept, if there is any
+    resume = std::filesystem::exists(partial) ? std::vector{partial} : std::vector<std::string>{};
   if (options.skip_existing) {
     const auto kept = partial.empty() ? std::nullopt : begun(partial, identity);
     if (is_made(outputs, drawn, partial, part, kept)) {
@@ -446,7 +448,10 @@ void add_options(CLI::App& sub, const std::shared_ptr<Options>& options) {
          "motion blur: the mean of N pictures while a parameter runs from A to B, the samples shared among them")
       ->type_name("NAME=A..B:N");
   sub.add_flag("--watch", options->watch, "again when the scene or a file that it reads changes, until Ctrl-C");
-  sub.add_option("--resume", options->resume, "continue from a .partial file")->type_name("FILE");
+  sub.add_option("--resume", options->resume,
+                 "go on from a .partial file; without FILE from that of the picture, if there is one")
+      ->type_name("FILE")
+      ->expected(0, 1);
   sub.add_flag("--stamp", options->stamp, "put date, machine and the scene's path into the pictures");
   sub.add_flag("--quiet", options->quiet, "no progress, no notes");
   sub.add_flag("--stats", options->stats, "print times, counts and memory");
