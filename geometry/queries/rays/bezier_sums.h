@@ -105,6 +105,8 @@ inline auto for_degrees(const PatchView& patch, const F& f) {
         return f.template operator()<3, 3>();
       case 5:
         return f.template operator()<5, 5>();
+      case 7:  // what is fitted to other surfaces
+        return f.template operator()<7, 7>();
       default:
         break;
     }

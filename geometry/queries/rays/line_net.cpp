@@ -673,6 +673,10 @@ LEKALO_WIDE void search_bicubic(const PatchView& patch, const CellPlace& place, 
                                 const LineBasis& line, CellHits& hits) {
   NetSearch<3, 3>(patch, place, reach, near, line, hits).run();
 }
+LEKALO_WIDE void search_fitted(const PatchView& patch, const CellPlace& place, const Vec2& reach, const LineBasis& line,
+                               CellHits& hits) {
+  NetSearch<7, 7>(patch, place, reach, nullptr, line, hits).run();
+}
 
 }  // namespace
 
@@ -682,6 +686,8 @@ void search_net(const PatchView& patch, const CellPlace& place, double reach_x, 
   for_degrees(patch, [&]<int kP, int kQ>() {
     if constexpr (kP == 3 && kQ == 3)
       search_bicubic(patch, place, reach, nullptr, line, hits);
+    else if constexpr (kP == 7 && kQ == 7)
+      search_fitted(patch, place, reach, line, hits);
     else
       NetSearch<kP ? kP : kAnyDegree, kQ ? kQ : kAnyDegree>(patch, place, reach, nullptr, line, hits).run();
   });
