@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <span>
 
@@ -9,7 +10,9 @@
 #include "geometry/queries/closest/position.h"
 #include "geometry/shapes/csg/body_shape.h"
 #include "geometry/shapes/csg/csg.h"
+#include "render/cameras/kept_points.h"
 #include "render/lines/curve_helpers.h"
+#include "render/model/objects.h"
 #include "render/model/placed_objects.h"
 
 namespace lekalo::render {
@@ -269,14 +272,52 @@ void add(const Entity& entity, const Affine& map, Kept points) {
   }
 }
 
+using PointsPtr = std::shared_ptr<const std::vector<Vec3>>;
+
+struct Found {
+  Entity shape;  // so that no address is used again
+  PointsPtr points;
+};
+struct FoundPoints {
+  std::mutex guard;
+  int asking = 0;
+  std::map<std::pair<size_t, const void*>, Found> shapes;  // by kind and identity()
+};
+
+FoundPoints& found_points() {
+  static FoundPoints all;
+  return all;
+}
+
+// Those of a shape that no planes cut, in its own coordinates.
+PointsPtr points_of(const Entity& shape) {
+  const std::pair<size_t, const void*> key{shape.index(), identity(shape)};
+  {
+    const std::lock_guard lock(found_points().guard);
+    if (const auto known = found_points().shapes.find(key); known != found_points().shapes.end())
+      return known->second.points;
+  }
+  std::vector<Vec3> list;
+  add(shape, Affine(), Kept(list));
+  auto points = std::make_shared<const std::vector<Vec3>>(std::move(list));
+  const std::lock_guard lock(found_points().guard);
+  if (found_points().asking > 0 && key.second) found_points().shapes.emplace(key, Found{shape, points});
+  return points;
+}
+
 void add(const std::vector<Object>& objects, const Affine& map, std::vector<Vec3>& points) {
   for (const Object& object : objects) {
     if (const auto* group = std::get_if<GroupPtr>(&object.shape)) {
       add((*group)->objects, map * object.transform, points);
     } else {
-      std::vector<Vec3> own;  // where the object is placed, as its planes are
-      add(object.shape, object.transform, Kept(own, object.clips));
-      for (const Vec3& p : own) points.push_back(map.point(p));
+      if (object.clips.empty()) {
+        const PointsPtr own = points_of(object.shape);
+        for (const Vec3& p : *own) points.push_back(map.point(object.transform.point(p)));
+      } else {
+        std::vector<Vec3> own;  // where the object is placed, as its planes are
+        add(object.shape, object.transform, Kept(own, object.clips));
+        for (const Vec3& p : own) points.push_back(map.point(p));
+      }
       for (const Vec3& p : helper_points(object)) points.push_back(map.point(object.transform.point(p)));
     }
   }
@@ -329,6 +370,15 @@ void include_farthest(const std::vector<Object>& objects, const Affine& map, Box
 }
 
 }  // namespace
+
+KeptPoints::KeptPoints() {
+  const std::lock_guard lock(found_points().guard);
+  ++found_points().asking;
+}
+KeptPoints::~KeptPoints() {
+  const std::lock_guard lock(found_points().guard);
+  if (--found_points().asking == 0) found_points().shapes.clear();
+}
 
 struct FramedContent::Points {
   std::once_flag once, box_once;

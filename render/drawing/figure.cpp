@@ -14,12 +14,15 @@
 #include <set>
 
 #include "geometry/queries/rays/fitted_pieces.h"
+#include "render/cameras/kept_points.h"
 #include "render/cameras/window.h"
+#include "render/drawing/areas/filled_curves.h"
 #include "render/drawing/page/graph_axes.h"
 #include "render/drawing/page/legend.h"
 #include "render/drawing/page/page_edges.h"
 #include "render/drawing/page/panel_layout.h"
 #include "render/drawing/view_drawing.h"
+#include "render/model/placed_objects.h"
 #include "render/scene/values/diagnostics.h"
 
 namespace lekalo::render {
@@ -28,9 +31,23 @@ using namespace geometry;
 
 namespace {
 
+// What objects say of fills stands in the drawing, or a note says why not.
+void add_filled_curves(Model& model, Figure& figure) {
+  std::vector<std::string> left_out;
+  if (model.drawing.ground == Ground::fill) model.objects = with_filled_curves(model.objects, left_out);
+  if (model.drawing.ground == Ground::none)
+    each_object(model.objects, [&](const Object& object) {
+      if (object.look && object.look->fill)
+        left_out.push_back(
+            fmt::format("the fill of '{}': areas are filled with `drawing: {{ ground: fill }}`", object.name));
+    });
+  for (std::string& what : left_out) add_once(std::move(what), figure.left_out);
+}
+
 // The view of a model into a rectangle of the sheet, less the room that its axes and legend take.
 std::unique_ptr<ViewDrawing> view_drawing(Model model, const Vec2& at, Vec2 size, bool panel,
                                           const FigureOptions& options, Figure& figure) {
+  add_filled_curves(model, figure);
   const double per_pixel = millimetres_of_pixel(model);
   const auto camera_for = [&](const Vec2& millimetres) {
     const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length / per_pixel))); };
@@ -240,6 +257,7 @@ void note_unplaced_panels(const Model& model, Figure& figure) {
 
 Figure figure_of(const std::shared_ptr<const Model>& given, const FigureOptions& options) {
   const KeptFits kept;
+  const KeptPoints kept_points;
   Model model = *given;
   Figure figure;
   if (!(model.paper.width > 0)) {

@@ -126,6 +126,8 @@ class ViewDrawing::Work {
     GraphWork graph = graph_axes(view_, legend_, obstacles_);
     note_left_out(std::move(graph.left_out));
     for (std::string& what : graph.covered) add_once(std::move(what), figure_.cut_off);
+    for (const std::vector<SheetItem>* drawn : {&graph.under, &graph.over})
+      for (const SheetItem& item : *drawn) add_obstacles(item);
     append(std::move(graph.under));
     add_group(std::move(hidden)), add_group(std::move(seen));
     append(std::move(graph.over));

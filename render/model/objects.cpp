@@ -319,7 +319,9 @@ TypeDeclaration object_type() {
                 "lines that are seen of it: only those given; without it pictures show curves and points, drawings "
                 "what `drawing` says")
       .optional("show", helpers(), "helpers beside it: those that the shape's type offers")
-      .optional("fill", group(fill_fields()), "of the areas in which it is seen, in drawings with `ground: fill`")
+      .optional("fill", group(fill_fields()),
+                "of the areas in which it is seen, in drawings with `ground: fill`; of a closed plane curve the region "
+                "inside, which hides what is behind it")
       .optional("legend", label({"i"}),
                 "text in the legend of a drawing; %i is the number of a family's member, from 0")
       .built_by(objects_of);

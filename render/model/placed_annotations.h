@@ -1,4 +1,5 @@
-// Annotations speak of geometry as it is written. Where one object alone shows that, they stand where it is placed.
+// Annotations speak of geometry as it is written. Where one object alone shows that, or a solid that is made of it,
+// they stand where it is placed.
 #pragma once
 
 #include <string>
@@ -10,8 +11,9 @@ namespace lekalo::render {
 
 // What the value of an annotation's field was taken from; kept beside it as `field.shape`.
 struct ShapeSpokenOf {
-  const void* shape = nullptr;  // identity()
-  bool is_normal = false;       // of a direction: that of a surface's normal, which maps otherwise
+  const void* shape = nullptr;    // identity()
+  const void* operand = nullptr;  // the same of what stands for it in solids that are put together
+  bool is_normal = false;         // of a direction: that of a surface's normal, which maps otherwise
 };
 inline std::string shape_field(const std::string& field) { return field + ".shape"; }
 

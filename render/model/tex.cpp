@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 
+#include "render/scene/values/characters.h"
 #include "render/scene/values/words.h"
 
 namespace lekalo::render {
@@ -135,16 +136,90 @@ constexpr Symbol kSymbols[] = {
     {"lceil", "⌈", Role::opening},
     {"rceil", "⌉", Role::closing},
     {"|", "‖"},
-    {"colon", ":", Role::punctuation}};
+    {"colon", ":", Role::punctuation},
+    // Behind the names that are written for a character that has several.
+    {"varnothing", "∅"},
+    {"aleph", "ℵ"},
+    {"wp", "℘"},
+    {"complement", "∁"},
+    {"top", "⊤"},
+    {"bot", "⊥"},
+    {"neg", "¬"},
+    {"lnot", "¬"},
+    {"nexists", "∄"},
+    {"triangle", "△"},
+    {"square", "□"},
+    {"blacksquare", "■"},
+    {"lozenge", "◊"},
+    {"measuredangle", "∡"},
+    {"therefore", "∴", Role::relation},
+    {"because", "∵", Role::relation},
+    {"dagger", "†", Role::binary},
+    {"ddagger", "‡", Role::binary},
+    {"land", "∧", Role::binary},
+    {"lor", "∨", Role::binary},
+    {"odot", "⊙", Role::binary},
+    {"ominus", "⊖", Role::binary},
+    {"oslash", "⊘", Role::binary},
+    {"sqcup", "⊔", Role::binary},
+    {"sqcap", "⊓", Role::binary},
+    {"uplus", "⊎", Role::binary},
+    {"diamond", "⋄", Role::binary},
+    {"supset", "⊃", Role::relation},
+    {"supseteq", "⊇", Role::relation},
+    {"ni", "∋", Role::relation},
+    {"prec", "≺", Role::relation},
+    {"succ", "≻", Role::relation},
+    {"asymp", "≍", Role::relation},
+    {"doteq", "≐", Role::relation},
+    {"triangleq", "≜", Role::relation},
+    {"lesssim", "≲", Role::relation},
+    {"gtrsim", "≳", Role::relation},
+    {"models", "⊨", Role::relation},
+    {"vdash", "⊢", Role::relation},
+    {"gets", "←", Role::relation},
+    {"longrightarrow", "⟶", Role::relation},
+    {"longleftarrow", "⟵", Role::relation},
+    {"longmapsto", "⟼", Role::relation},
+    {"hookrightarrow", "↪", Role::relation},
+    {"implies", "⟹", Role::relation},
+    {"impliedby", "⟸", Role::relation},
+    {"iff", "⟺", Role::relation},
+    {"updownarrow", "↕", Role::relation},
+    {"Uparrow", "⇑", Role::relation},
+    {"Downarrow", "⇓", Role::relation},
+    {"nearrow", "↗", Role::relation},
+    {"searrow", "↘", Role::relation},
+    {"swarrow", "↙", Role::relation},
+    {"nwarrow", "↖", Role::relation},
+    {"iint", "∬", Role::big},
+    {"iiint", "∭", Role::big},
+    {"coprod", "∐", Role::big},
+    {"bigcup", "⋃", Role::big},
+    {"bigcap", "⋂", Role::big},
+    {"bigoplus", "⨁", Role::big},
+    {"bigotimes", "⨂", Role::big},
+    {"vert", "|"},
+    {"Vert", "‖"},
+    {"lvert", "|", Role::opening},
+    {"rvert", "|", Role::closing},
+    {"lVert", "‖", Role::opening},
+    {"rVert", "‖", Role::closing},
+    {"lbrace", "{", Role::opening},
+    {"rbrace", "}", Role::closing},
+    {"lbrack", "[", Role::opening},
+    {"rbrack", "]", Role::closing}};
 
-constexpr std::string_view kFunctions[] = {"sin",  "cos", "tan", "cot", "arcsin", "arccos", "arctan", "sinh", "cosh",
-                                           "tanh", "exp", "ln",  "log", "lim",    "min",    "max",    "sup",  "inf",
-                                           "det",  "dim", "arg", "deg", "sgn",    "rot",    "div",    "grad", "const"};
-constexpr std::string_view kAccents[] = {"hat",  "vec",     "bar",      "tilde",     "dot",
-                                         "ddot", "widehat", "overline", "underline", "overrightarrow"};
+constexpr std::string_view kFunctions[] = {"sin",  "cos", "tan",  "cot", "arcsin", "arccos", "arctan", "sinh", "cosh",
+                                           "tanh", "exp", "ln",   "log", "lim",    "min",    "max",    "sup",  "inf",
+                                           "det",  "dim", "arg",  "deg", "sgn",    "rot",    "div",    "grad", "const",
+                                           "sec",  "csc", "coth", "ker", "gcd",    "hom",    "Pr",     "lg"};
+constexpr std::string_view kAccents[] = {"hat",     "vec",      "bar",       "tilde",          "dot",   "ddot",
+                                         "widehat", "overline", "underline", "overrightarrow", "check", "breve",
+                                         "acute",   "grave",    "mathring",  "widetilde"};
 // Commands that change the letters of their argument.
-constexpr std::string_view kFormulaFonts[] = {"mathbf", "mathrm",     "mathit", "mathsf",      "mathtt",
-                                              "mathbb", "boldsymbol", "bm",     "operatorname"};
+constexpr std::string_view kFormulaFonts[] = {"mathbf",     "mathrm", "mathit",       "mathsf",  "mathtt",  "mathbb",
+                                              "boldsymbol", "bm",     "operatorname", "mathcal", "mathfrak"};
 constexpr std::string_view kTextFonts[] = {"textbf", "textit", "emph", "textrm", "textsf", "texttt", "text", "mbox"};
 constexpr std::string_view kStructures[] = {"frac", "tfrac", "dfrac", "sqrt", "binom", "left", "right"};
 struct Space {
@@ -155,9 +230,33 @@ constexpr Space kSpaces[] = {{",", 1.0 / 6}, {":", 2.0 / 9}, {";", 5.0 / 18}, {"
                              {" ", 1.0 / 3}, {"quad", 1},    {"qquad", 2}};
 constexpr std::string_view kEscaped = "%${}_&#";
 
-// Blackboard letters that have places of their own in Unicode.
-constexpr std::pair<char, std::string_view> kBlackboard[] = {{'C', "ℂ"}, {'H', "ℍ"}, {'N', "ℕ"}, {'P', "ℙ"},
-                                                             {'Q', "ℚ"}, {'R', "ℝ"}, {'Z', "ℤ"}};
+// Alphabets of letters that have places of their own in Unicode: from `capitals` on, and from `small` on (0: capitals
+// alone), but for some that were there before.
+struct Alphabet {
+  std::string_view name;
+  char32_t capitals, small;
+  std::string_view exceptions;
+  std::u32string_view places;  // of these
+};
+constexpr Alphabet kAlphabets[] = {{"mathbb", 0x1D538, 0, "CHNPQRZ", U"ℂℍℕℙℚℝℤ"},
+                                   {"mathcal", 0x1D49C, 0, "BEFHILMR", U"ℬℰℱℋℐℒℳℛ"},
+                                   {"mathfrak", 0x1D504, 0x1D51E, "CHIRZ", U"ℭℌℑℜℨ"}};
+
+const Alphabet* alphabet_of(std::string_view command) {
+  const auto* const found = std::find_if(std::begin(kAlphabets), std::end(kAlphabets),
+                                         [&](const Alphabet& one) { return one.name == command; });
+  return found == std::end(kAlphabets) ? nullptr : found;
+}
+
+// The letter of an alphabet for a Latin one; empty: it has none.
+std::string letter_of(const Alphabet& alphabet, char letter) {
+  if (const size_t k = alphabet.exceptions.find(letter); k != std::string_view::npos)
+    return encode_utf8(alphabet.places[k]);
+  if (letter >= 'A' && letter <= 'Z') return encode_utf8(alphabet.capitals + static_cast<char32_t>(letter - 'A'));
+  if (letter >= 'a' && letter <= 'z' && alphabet.small)
+    return encode_utf8(alphabet.small + static_cast<char32_t>(letter - 'a'));
+  return {};
+}
 
 template <class List>
 bool contains(const List& list, std::string_view name) {
@@ -170,7 +269,7 @@ struct Face {
   bool bold = false;
   enum class Slant { usual, italic, upright } slant = Slant::usual;
   TexNode::Family family = TexNode::Family::roman;
-  bool blackboard = false;
+  const Alphabet* alphabet = nullptr;  // null: plain letters
 };
 
 class Slip {
@@ -316,7 +415,7 @@ class Parser {
     if (name == "textrm" || name == "mathrm") face.family = TexNode::Family::roman, face.bold = false;
     if (name == "textsf" || name == "mathsf") face.family = TexNode::Family::sans, face.slant = Face::Slant::upright;
     if (name == "texttt" || name == "mathtt") face.family = TexNode::Family::mono, face.slant = Face::Slant::upright;
-    if (name == "mathbb") face.blackboard = true, face.slant = Face::Slant::upright;
+    if (const Alphabet* alphabet = alphabet_of(name)) face.alphabet = alphabet, face.slant = Face::Slant::upright;
     return face;
   }
 
@@ -462,6 +561,9 @@ class Parser {
       ++i_;
       return space(1.0 / 3, face);
     }
+    if (face.alphabet && std::isalpha(static_cast<unsigned char>(c)) && letter_of(*face.alphabet, c).empty())
+      fail(i_, fmt::format("\\{} has capital letters alone", face.alphabet->name),
+           fmt::format("like \\{}{{{}}}", face.alphabet->name, static_cast<char>(c - 'a' + 'A')));
     return letter(character(), face);
   }
 
@@ -489,9 +591,7 @@ class Parser {
     node.italic = face.slant == Face::Slant::italic || (face.slant == Face::Slant::usual && latin) ||
                   (face.slant != Face::Slant::upright && small_greek) ||
                   (small_greek && face.slant == Face::Slant::upright && face.bold);
-    if (face.blackboard && latin)
-      for (const auto& [plain, board] : kBlackboard)
-        if (plain == text[0]) node.text = board;
+    if (face.alphabet && latin) node.text = letter_of(*face.alphabet, text[0]);
     return node;
   }
 
@@ -587,12 +687,14 @@ class Parser {
 }  // namespace
 
 std::string formula_command_of(std::string_view character) {
-  for (const auto& [plain, board] : kBlackboard)
-    if (board == character) return fmt::format("\\mathbb{{{}}}", plain);
   // LaTeX has no \degree of its own.
   if (character == "°") return "^\\circ";
   for (const Symbol& one : kSymbols)
     if (one.text == character) return fmt::format("\\{}", one.name);
+  for (const Alphabet& alphabet : kAlphabets)
+    for (const char first : {'A', 'a'})
+      for (char letter = first; letter < first + 26; ++letter)
+        if (letter_of(alphabet, letter) == character) return fmt::format("\\{}{{{}}}", alphabet.name, letter);
   return {};
 }
 

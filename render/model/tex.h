@@ -3,8 +3,9 @@
 //   text      \textbf{..} \textit{..} \emph{..} \textrm{..} \texttt{..} \textsf{..}; -- and --- dashes, `` '' quotes,
 //             ~ a blank that holds, \, \; \: \! \quad \qquad and "\ " blanks, \% \$ \{ \} \_ \& \# \\ characters
 //   formulas  x_{i+1}^{(k)}, primes, \frac{a}{b}, \tfrac, \dfrac, \sqrt{x}, \binom{n}{k}, \left( .. \right),
-//             \mathbf \mathrm \mathit \mathsf \mathtt \mathbb \boldsymbol \text{..}, \hat \vec \bar \tilde \dot \ddot
-//             \overline \underline, Greek letters, the signs of symbols(), names of functions (\sin, \lim, ...)
+//             \mathbf \mathrm \mathit \mathsf \mathtt \mathbb \mathcal \mathfrak \boldsymbol \text{..}, \hat \check
+//             \vec \bar \tilde \widetilde \breve \acute \grave \mathring \dot \ddot \overline \underline, Greek
+//             letters, the signs of symbols(), names of functions (\sin, \lim, ...)
 //
 // Only what a label can do: no macros, no alignments. Names and meanings are those of LaTeX, so that LaTeX may set the
 // same text.

@@ -554,12 +554,61 @@ image: { size: [80 mm, auto], margin: 4 mm }
             "ANNOTATIONS", "{ type: label, at: [4, 0], text: E }, "
             "{ type: linear_dimension, from: [0, 0], to: [4, 0], offset: -8 mm }, "
             "{ type: linear_dimension, from: [4, 0], to: [4, 3], offset: -8 mm }"))
-        (x, y), _ = self.place_of_text(root, "E")
+        self.assert_on_no_line(root, self.place_of_text(root, "E")[0], (2, 2))
+
+    def assert_on_no_line(self, root, place, size):
+        """No straight line runs through the rectangle of this size over the beginning of a text."""
+        x, y = place
         for line in (self.places_of(path) for path in root.iter(SVG + "path") if path.get("stroke")):
             for begin, end in zip(line, line[1:]):
-                for part in range(101):
-                    at = [a + (b - a) * part / 100 for a, b in zip(begin, end)]
-                    self.assertFalse(x < at[0] < x + 2 and y - 2 < at[1] < y, (x, y, line))
+                for part in range(201):
+                    at = [a + (b - a) * part / 200 for a, b in zip(begin, end)]
+                    self.assertFalse(x < at[0] < x + size[0] and y - size[1] < at[1] < y, (x, y, line))
+
+    def test_texts_avoid_grids(self):
+        """Lines across a graph are lines too: (2, 0.9) is beside one and below another."""
+        root, _ = self.drawn("""lekalo: 1
+geometry: { f: { type: formula_curve, point: [t, sin(t)], domain: [0, 6] } }
+camera: { type: graph }
+drawing:
+  axes: { x: { grid: true, ticks: 0..6 }, y: { grid: true, ticks: [-1, -0.5, 0, 0.5, 1] } }
+  annotations: [{ type: point, at: [2, sin(2)], label: E }, { type: linear_dimension, from: [1, 0], to: [3, 0], text: F, offset: -4 mm }]
+image: { size: [80 mm, 60 mm] }
+""")
+        for words, size in (("E", (2, 2)), ("F", (1.5, 1.5))):
+            self.assert_on_no_line(root, self.place_of_text(root, words)[0], size)
+
+    def test_letters_of_cutting_planes_avoid_dimensions(self):
+        """A dimension whose line lies upon an arrow: that one's letter stands beside it."""
+        places = {}
+        for offset in ("8 mm", "6 mm"):
+            root, _ = self.drawn(f"""lekalo: 1
+geometry: {{ plate: {{ type: box, size: [10, 6, 2] }} }}
+objects: [{{ shape: plate }}]
+panels:
+  aa: {{ camera: {{ view: front }}, section: {{ planes: {{ through: [0, 3, 0], normal: -y }}, title: A }} }}
+  top:
+    camera: {{ view: top }}
+    drawing: {{ annotations: [{{ type: cutting_plane, of: aa }}, {{ type: linear_dimension, from: [0, 0, 2], to: [0, 6, 2], offset: {offset} }}] }}
+layout: {{ rows: [[aa], [top]], gap: 4 mm }}
+image: {{ size: [90 mm, 100 mm] }}
+""")
+            letters = [group for group in root.iter(SVG + "g") if "".join(group.itertext()) == "A" and group.get("transform")]
+            self.assertEqual(len(letters), 2)
+            places[offset] = [[float(x) for x in re.findall(r"-?[\d.]+", letter.get("transform"))[:2]] for letter in letters]
+            for place in places[offset]:
+                self.assert_on_no_line(root, place, (2, 2))
+        # Beyond the thick end, or below it.
+        self.assertLess(places["6 mm"][0][0], places["6 mm"][1][0] - 1)
+        self.assertNotEqual(*[round(place[1], 2) for place in places["6 mm"]])
+
+    def test_pages_are_transparency_groups_where_they_must(self):
+        """pdfTeX warns of several figures with groups on a page."""
+        opaque = CIRCLE + "outputs: page.pdf\nobjects: [{ shape: c, lines: { curve: { width: 1 mm, opacity: OPACITY } } }]\n"
+        for opacity, groups in (("1", False), ("0.5", True)):
+            self.write("scene.yaml", opaque.replace("OPACITY", opacity))
+            self.run_program("draw", "scene.yaml")
+            self.assertEqual(b"/S /Transparency" in self.bytes_of("page.pdf"), groups)
 
     def test_diameters_of_cones(self):
         """That of the wider end is measured, of what a cut has left of it; from the side its line is the end's."""

@@ -243,6 +243,84 @@ image: {{ size: [80 mm, auto] }}
             for a, b in zip(there, moved):
                 self.assert_near(a, b, 2e-3)
 
+    def test_annotations_follow_what_is_made_of_theirs(self):
+        """Of operands, by their names and those of places on them; a frame; what is shown itself stays."""
+        def texts(transform, body_transform=""):
+            self.write("scene.yaml", f"""lekalo: 1
+geometry:
+  b: {{ type: box, size: [4, 3, 2] }}
+  h: {{ type: cylinder_body, center: [2, 1.5, -1], radius: 0.5, height: 4 }}
+  P: {{ of: b.z_max, u: 1, v: 1 }}
+  d: {{ type: difference, of: b, minus: h{body_transform} }}
+  e: {{ type: union, of: d }}
+objects: [{{ shape: e{transform} }}]
+camera: {{ type: parallel, view: top, frame: e }}
+drawing:
+  annotations:
+    - {{ type: label, at: {{ of: b.z_max, u: 1, v: 1 }}, text: A, side: left }}
+    - {{ type: label, at: P, text: B, side: right }}
+    - {{ type: diameter_dimension, of: h.side }}
+    - {{ type: frame, frame: {{ origin: P, x: {{ of: b.z_max, u: 1, v: 1, vector: du }}, z: {{ of: b.z_max, u: 1, v: 1, vector: normal }} }}, length: 1 }}
+image: {{ size: [80 mm, auto] }}
+""")
+            self.assertNotIn("not in the drawing", self.run_program("draw", "scene.yaml", "-o", "d.svg")[1])
+            svg = (self.folder / "d.svg").read_text()
+            numbers = re.findall(r"-?\d+\.?\d*", svg[svg.index('class="lines"'):])
+            return [float(n) for n in numbers]
+        there = texts("")
+        self.assertGreater(len(there), 60)
+        for moved in (texts(", transform: { translate: [10, 5, 1] }"), texts("", ", transform: { translate: [-20, 0, 3] }"),
+                      texts(", transform: { translate: [1, 5, 1] }", ", transform: { translate: [-20, 0, 3] }")):
+            self.assertEqual(len(there), len(moved))
+            for a, b in zip(there, moved):
+                self.assert_near(a, b, 2e-3)
+
+    def test_closed_plane_curves_are_filled(self):
+        """A disc about a ball, seen from above and from the side of its plane; a region of a graph."""
+        disc = """lekalo: 1
+geometry: { c: { type: circle, radius: 1.5 }, b: { type: ball, radius: 1 } }
+objects: [{ shape: c, fill: { color: '#ff0000' } }, { shape: b, fill: { color: '#0000ff' } }]
+drawing: { ground: fill }
+camera: { view: top }
+image: { size: [40 mm, 40 mm], margin: 0 mm }
+"""
+        def filled(scene, color):
+            self.write("scene.yaml", scene)
+            self.assertNotIn("warning", self.run_program("draw", "scene.yaml", "-o", "x.svg", "-o", "x.pdf", "-o", "x.tikz")[1])
+            return [path.get("d") for path in tree.fromstring(self.bytes_of("x.svg")).iter(PATH) if path.get("fill") == color]
+        ring, = filled(disc, "#ff0000")
+        ball, = filled(disc, "#0000ff")
+        radii = sorted({round(float(r), 3) for r in re.findall(r"A([\d.]+)", ring)})
+        self.assertEqual((ring.count("M"), ball.count("M")), (2, 1))
+        self.assert_near(radii[1] / radii[0], 1.5, 1e-3)
+        # The near half of the disc hides a part of the ball, which is seen above and below.
+        oblique = disc.replace("view: top", "view: { azimuth: 0, elevation: 30 }")
+        ring, = filled(oblique, "#ff0000")
+        ball, = filled(oblique, "#0000ff")
+        self.assertEqual((ring.count("M"), ball.count("M")), (1, 2))
+        graph = """lekalo: 1
+geometry:
+  area: { type: polyline, closed: true, points: [[1, 0], [3, 0], [3, 2], [1, 1]] }
+objects: [{ shape: area, fill: { color: '#ff0000' } }]
+camera: { type: graph, x: [0, 4], y: [0, 2] }
+drawing: { ground: fill, axes: { x: {}, y: {} } }
+image: { size: [80 mm, 60 mm] }
+"""
+        area, = filled(graph, "#ff0000")
+        self.assertEqual(len(set(re.findall(r"[\d.]+ [\d.]+", area))), 4)
+
+    def test_fills_that_are_not_in_the_drawing(self):
+        scene = """lekalo: 1
+geometry: { c: { type: CURVE } }
+objects: [{ shape: c, fill: { color: red } }]
+drawing: { ground: GROUND }
+"""
+        for curve, ground, words in (("circle, radius: 1, arc: [0, 90]", "fill", "the fill of 'c': the profile is open"),
+                                     ("circle, radius: 1", "none", "ground: fill"),
+                                     ("polyline, closed: true, points: [[0, 0], [2, 2], [2, 0], [0, 1]]", "fill", "meets itself")):
+            self.write("scene.yaml", scene.replace("CURVE", curve).replace("GROUND", ground))
+            self.assertIn(words, self.run_program("draw", "scene.yaml", "-o", "x.svg")[1])
+
     def test_words_of_others_lead_to_ours(self):
         self.write("scene.yaml", "lekalo: 1\ngeometry:\n  a: { type: line, from: [0, 0, 0], to: [1, 0, 0] }\n  b: { type: cube, size: [1, 1, 1] }\n"
                                  "objects: [b]\ncamera: { type: perspective, position: [4, 4, 4], look_at: [0, 0, 0], fov: 40 }\n")

@@ -184,6 +184,10 @@ image: { size: [60 mm, 40 mm] }
     def test_usage(self):
         self.assertIn("--standalone", self.run_program("draw", "block.yaml", "-o", "a.tex", code=USAGE)[1])
         self.assertIn("--latex", self.run_program("draw", "block.yaml", "--latex", "-o", "a.tikz", code=USAGE)[1])
+        # Beside a PDF file whose texts LaTeX sets too.
+        self.assertEqual(self.run_program("draw", "block.yaml", "--latex", "-o", "a.tikz", "-o", "a.pdf")[1], "a.tikz\na.pdf\na.tex\n")
+        self.assertIn("are written there", self.run_program("draw", "block.yaml", "--latex", "--standalone", "-o", "a.tex", "-o", "a.pdf",
+                                                            code=USAGE)[1])
         self.assertIn("# %", self.run_program("draw", "block.yaml", "-o", "a#.tikz", code=USAGE)[1])
         self.write("mine.tex", "\\documentclass{article}")
         self.assertIn("is for tikz", self.run_program("draw", "block.yaml", "--standalone", "-o", "a.svg", code=USAGE)[1])

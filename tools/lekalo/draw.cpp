@@ -49,6 +49,9 @@ std::filesystem::path overlay_of(const std::string& drawing) {
 
 bool is_tikz(const std::string& path) { return path.ends_with(".tikz") || path.ends_with(".tex"); }
 
+// Whether LaTeX can set its texts over it. TikZ files have theirs set by LaTeX in any case.
+bool takes_overlay(const std::string& path) { return path.ends_with(".pdf") || path.ends_with(".png"); }
+
 void check_name_for_latex(const std::string& path) {
   if (!render::latex_takes_file(std::filesystem::path(path).filename().string()))
     throw UsageError(fmt::format("'{}': LaTeX takes no file with # % $ \\ {{ }} \" in its name", path));
@@ -61,16 +64,19 @@ void check_overwriting(const render::LoadedScene& scene, const std::vector<rende
     if (latex || is_tikz(file.path)) check_name_for_latex(file.path);
     // A .tex file may be somebody's document.
     if (file.path.ends_with(".tex")) check_is_ours(file.path, render::kTikzMagic, "TikZ picture");
-    if (!latex) continue;
-    written.push_back(overlay_of(file.path).string());
-    check_is_ours(overlay_of(file.path), render::kOverlayMagic, "LaTeX file");
+    if (!latex || !takes_overlay(file.path)) continue;
+    const std::string overlay = overlay_of(file.path).string();
+    if (std::any_of(outputs.begin(), outputs.end(), [&](const auto& other) { return other.path == overlay; }))
+      throw UsageError(fmt::format("'{}': the texts over '{}' are written there", overlay, file.path));
+    written.push_back(overlay);
+    check_is_ours(overlay, render::kOverlayMagic, "LaTeX file");
   }
   check_inputs_stay(scene, written);
 }
 
 void check_kind(const std::string& path, const DrawSettings& settings) {
   if (!is_drawn(path)) throw UsageError(fmt::format("'{}': draw writes svg, pdf, png, tikz and tex", path));
-  if (settings.latex && !path.ends_with(".pdf") && !path.ends_with(".png"))
+  if (settings.latex && !takes_overlay(path) && !is_tikz(path))
     throw UsageError(fmt::format("'{}': --latex is for pdf and png files", path));
   if (path.ends_with(".tex") && !settings.standalone)
     throw UsageError(fmt::format("'{}': a .tex file is a document: add --standalone, or write a .tikz file", path));
@@ -87,9 +93,13 @@ int draw(const Options& options) {
   }
   if (options.outputs.empty())
     for (const render::OutputFile& file : scene.model->outputs)
-      if (file.kind == "drawing" && !(options.settings.latex && (file.path.ends_with(".svg") || is_tikz(file.path))))
-        outputs.push_back(file);
-  if (outputs.empty())
+      if (file.kind == "drawing" && !(options.settings.latex && file.path.ends_with(".svg"))) outputs.push_back(file);
+  const bool lacks_overlay =
+      options.settings.latex &&
+      std::none_of(outputs.begin(), outputs.end(), [](const auto& file) { return takes_overlay(file.path); });
+  if (lacks_overlay && !options.outputs.empty())
+    throw UsageError(fmt::format("'{}': --latex is for pdf and png files", outputs.front().path));
+  if (outputs.empty() || lacks_overlay)
     outputs.push_back(
         {std::filesystem::path(options.scene.file).stem().string() + (options.settings.latex ? ".pdf" : ".svg"),
          "drawing"});
@@ -187,9 +197,10 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
         print_statistics(figure, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     }
     const render::Sheet whole = found->figure.sheet;
-    const render::Sheet sheet = settings.latex ? render::without_texts(whole) : whole;
+    const bool with_overlay = settings.latex && takes_overlay(file.path);
+    const render::Sheet sheet = with_overlay ? render::without_texts(whole) : whole;
     const std::string texts =
-        settings.latex ? render::latex_overlay(whole, std::filesystem::path(file.path).filename().string()) : "";
+        with_overlay ? render::latex_overlay(whole, std::filesystem::path(file.path).filename().string()) : "";
     const std::string ending = std::filesystem::path(file.path).extension().string();
     if (ending == ".svg")
       render::write_file_atomically(file.path, render::svg_of(sheet, {settings.outlines}));
@@ -200,7 +211,7 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
     else
       write_pixels(file.path, sheet, *model);
     if (!settings.quiet) fmt::print(stderr, "{}\n", file.path);
-    if (!settings.latex) continue;
+    if (!with_overlay) continue;
     const std::filesystem::path overlay = overlay_of(file.path);
     render::write_file_atomically(overlay, texts);
     if (!settings.quiet) fmt::print(stderr, "{}\n", overlay.string());

@@ -85,8 +85,9 @@ void add_cutting_plane(AnnotationWork& work) {
     const Vec2 tip = end - 0.5 * kThick * way, tail = tip + kArrow * out;
     work.page_line(tail, tip, false, true);
     Label letter = work.page_label(section.title, tail);
-    letter.side = side_towards(out);
-    letter.distance = kTextOff;
+    // Behind the arrow or, where a dimension runs there, beside it or farther off.
+    for (const Vec2& beside : {out, way, -way}) letter.spots.push_back({tail, side_towards(beside), kTextOff});
+    for (const double farther : {3.0, 6.0}) letter.spots.push_back({tail, side_towards(out), kTextOff + farther});
     if (!section.title.empty()) work.add(std::move(letter));
   }
   for (size_t k = 1; k + 1 < places.size(); ++k)

@@ -187,6 +187,24 @@ class Painter {
   PangoContextPtr pango_;
 };
 
+// Whether nothing shines through anything.
+bool is_opaque(const std::vector<SheetItem>& items) {
+  return std::all_of(items.begin(), items.end(), [](const SheetItem& item) {
+    if (const auto* group = std::get_if<SheetGroup>(&item)) return is_opaque(group->items);
+    if (const auto* text = std::get_if<SheetText>(&item)) return text->brush.opacity == 1;
+    const auto* path = std::get_if<SheetPath>(&item);
+    return !path || ((!path->pen || path->pen->opacity == 1) && (!path->brush || path->brush->opacity == 1));
+  });
+}
+
+// From the first place of one text to the end of the other, if it is there: all places in the file stay.
+void blank(std::string_view from, std::string_view to, std::string& bytes) {
+  const size_t begin = bytes.find(from);
+  if (begin == std::string::npos) return;
+  const size_t end = bytes.find(to, begin) + to.size();
+  std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(begin), bytes.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+}
+
 }  // namespace
 
 std::string pdf_of(const Sheet& sheet) {
@@ -217,11 +235,10 @@ std::string pdf_of(const Sheet& sheet) {
     cairo_surface_finish(surface.get());
     check(cairo_surface_status(surface.get()));
   }
-  // Cairo writes a date, whether one wants it or not: blanks instead, so that all places in the file stay.
-  const std::string_view key = "/CreationDate (";
-  if (const size_t at = bytes.find(key); at != std::string::npos)
-    std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(at),
-              bytes.begin() + static_cast<std::ptrdiff_t>(bytes.find(')', at) + 1), ' ');
+  // Cairo writes a date, whether one wants it or not, and calls every page a transparency group, which pdfTeX warns of
+  // where several figures stand on a page.
+  blank("/CreationDate (", ")", bytes);
+  if (is_opaque(sheet.items)) blank("/Group <<", ">>", bytes);
   return bytes;
 }
 

@@ -25,6 +25,7 @@ constexpr const char* kTheta = "CMU Bright";  // the only one with a theta in it
 constexpr const char* kSans = "CMU Sans Serif";
 constexpr const char* kMono = "CMU Typewriter Text";
 constexpr const char* kSigns[] = {"DejaVu Serif", "DejaVu Sans"};
+constexpr const char* kAlphabets = "DejaVu Math TeX Gyre";  // the only one with whole script and Fraktur alphabets
 
 struct FontFile {
   std::string path;
@@ -60,7 +61,9 @@ const FontFile& file_of(const Font& font) {
       FcPatternGetCharSet(match.get(), FC_CHARSET, 0, &characters) != FcResultMatch)
     throw std::runtime_error(fmt::format("the font '{}' is not installed: texts of drawings need it (Debian: {})",
                                          font.family,
-                                         font.family.starts_with("CMU") ? "fonts-cmu" : "fonts-dejavu-core"));
+                                         font.family.starts_with("CMU") ? "fonts-cmu"
+                                         : font.family == kAlphabets    ? "fonts-dejavu-extra"
+                                                                        : "fonts-dejavu-core"));
   file.path = reinterpret_cast<const char*>(path);
   FcPatternGetInteger(match.get(), FC_INDEX, 0, &file.index);
   file.characters = FcCharSetCopy(characters);
@@ -71,6 +74,12 @@ const FontFile& file_of(const Font& font) {
 bool is_formula_greek(const Font& font, char32_t character) {
   return font.family == kSerif && font.italic && !font.bold && character >= U'α' && character <= U'ω' &&
          character != U'ε';  // which is a lunate one there
+}
+
+// A letter of one of these alphabets.
+bool is_script_or_fraktur(char32_t character) {
+  return (character >= 0x1D49C && character <= 0x1D537) ||
+         std::u32string_view(U"ℬℰℱℋℐℒℳℛℭℌℨ").find(character) != std::u32string_view::npos;
 }
 
 // The next character of UTF-8 text, which is known to be well formed.
@@ -95,6 +104,7 @@ std::vector<FontRun> font_runs(const Font& font, std::string_view text) {
     const char32_t character = next(text, i);
     std::vector<Font> choices;
     if (is_formula_greek(font, character)) choices.push_back({character == U'θ' ? kTheta : kFormulaGreek, true, false});
+    if (is_script_or_fraktur(character)) choices.push_back({kAlphabets, false, false});
     choices.push_back(font);
     for (const char* signs : kSigns) choices.push_back({signs, false, font.bold});
     const Font* chosen = nullptr;

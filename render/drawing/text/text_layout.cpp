@@ -253,6 +253,22 @@ class Setter {
       const double half = std::max(0.15 * unit, 0.35 * base.width);
       stroke({{middle - half, y}, {middle, y - 0.13 * unit}, {middle + half, y}});
       height = 0.17 * unit;
+    } else if (kind == "check") {
+      const double half = 0.15 * unit;
+      stroke({{middle - half, y - 0.13 * unit}, {middle, y}, {middle + half, y - 0.13 * unit}});
+      height = 0.17 * unit;
+    } else if (kind == "acute" || kind == "grave") {
+      const double lean = (kind == "acute" ? 0.08 : -0.08) * unit;
+      stroke({{middle - lean, y}, {middle + lean, y - 0.15 * unit}});
+      height = 0.19 * unit;
+    } else if (kind == "breve") {
+      Path bow;
+      const double half = 0.18 * unit, top = y - 0.13 * unit;
+      bow.from = {middle - half, top};
+      bow.steps.push_back(curve_to({middle - 0.6 * half, y + 0.03 * unit}, {middle + 0.6 * half, y + 0.03 * unit},
+                                   {middle + half, top}));
+      result.strokes.push_back(bow);
+      height = 0.17 * unit;
     } else if (kind == "vec") {
       const double half = std::max(0.24 * unit, 0.5 * base.width), at = y - 0.05 * unit;
       stroke({{middle - half, at}, {middle + half, at}});
@@ -260,16 +276,17 @@ class Setter {
               {middle + half, at},
               {middle + half - 0.11 * unit, at + 0.08 * unit}});
       height = 0.2 * unit;
-    } else if (kind == "tilde") {
+    } else if (kind == "tilde" || kind == "widetilde") {
       Path wave;
-      const double half = 0.22 * unit, rise = 0.1 * unit, at = y - 0.05 * unit;
+      const double half = std::max(0.22 * unit, kind == "tilde" ? 0 : 0.4 * base.width), rise = 0.1 * unit,
+                   at = y - 0.05 * unit;
       wave.from = {middle - half, at + 0.3 * rise};
       wave.steps.push_back(curve_to({middle - 0.3 * half, at - 1.6 * rise}, {middle + 0.3 * half, at + 1.6 * rise},
                                     {middle + half, at - 0.3 * rise}));
       result.strokes.push_back(wave);
       height = 0.15 * unit;
     } else {
-      const std::string sign = kind == "ddot" ? "¨" : "˙";
+      const std::string sign = kind == "ddot" ? "¨" : kind == "mathring" ? "˚" : "˙";
       Box dots = characters(sign, {font_family(family_), false, false}, scale);
       // Its own place is over a small letter.
       const double lift = std::max(0.0, base.ascent - 0.44 * unit);

@@ -57,25 +57,39 @@ void Builder::note_shapes_spoken_of(const Value& map, const Counters& counters, 
   for (const Entry& entry : map.entries) {
     const std::string& field = entry.key.name;
     const bool is_point = values.holds<geometry::Anchor>(field) && !values.get<geometry::Anchor>(field).on_page,
-               is_way = values.holds<Vec3>(field), is_thing = values.holds<std::vector<std::any>>(field);
-    if (!is_point && !is_way && !is_thing) continue;
+               is_way = values.holds<Vec3>(field), is_thing = values.holds<std::vector<std::any>>(field),
+               is_frame = values.holds<Frame>(field);
+    if (!is_point && !is_way && !is_thing && !is_frame) continue;
     const Value& value = with_counters(entry.value, counters);
-    std::set<const void*> shapes;
-    const auto look = [&](const Value& written) {
-      const Value& item = with_counters(written, counters);
+    std::set<const void*> shapes, as_operands;
+    const auto look = [&](const auto& self, const Value& written, const Counters& around) -> void {
+      const Value& item = with_counters(written, around);
       const Value* of = item.is_map() ? item.find("of") : &item;
-      if (!of || !of->is_scalar() || !thing_named(*of, counters)) return;
-      const auto parts = parts_named(with_counters(*of, counters), geometry_categories());
+      if (!of || !of->is_scalar() || !thing_named(*of, around)) return;
+      const auto parts = parts_named(with_counters(*of, around), geometry_categories());
       if (!parts) return;
-      for (const NamedPart& one : *parts) shapes.insert(identity(entity_of(one.member->built.value)));
+      for (const NamedPart& one : *parts) {
+        const Scoped& scoped = one.member->scoped;
+        // A place with a name is one of what it is on; a point by itself is on nothing.
+        if (one.member->built.category == Category::point && scoped.value->is_map())
+          self(self, *scoped.value, scoped.counters);
+        else
+          shapes.insert(identity(entity_of(one.member->built.value)));
+        if (one.member->as_operand) as_operands.insert(identity(entity_of(one.member->as_operand->value)));
+      }
     };
     if (is_thing && value.is_sequence())
-      for (const Value& item : value.items) look(item);
+      for (const Value& item : value.items) look(look, item, counters);
+    else if (is_frame)
+      for (const Entry& part : value.entries) look(look, part.value, counters);
     else
-      look(value);
+      look(look, value, counters);
     if (shapes.size() != 1 || !*shapes.begin()) continue;  // points are no shapes of objects that could be told apart
-    const Value* vector = is_way && value.is_map() ? value.find("vector") : nullptr;
-    values.set(shape_field(field), ShapeSpokenOf{*shapes.begin(), vector && vector->text == "normal"});
+    const Value* way = is_frame ? value.find("z") : &value;
+    const Value* vector = (is_way || is_frame) && way && way->is_map() ? way->find("vector") : nullptr;
+    values.set(shape_field(field),
+               ShapeSpokenOf{*shapes.begin(), as_operands.empty() ? *shapes.begin() : *as_operands.begin(),
+                             vector && vector->text == "normal"});
   }
 }
 

@@ -93,6 +93,13 @@ bool Builder::read_field(const Field& field, const Value& value, const Counters&
                          fmt::format("'{}' takes one value for both directions, or {{ u: ..., v: ... }}", field.name));
       return false;
     }
+  } else if (value.is_sequence() && (field.type.kind == Kind::number || field.type.kind == Kind::integer)) {
+    const bool is_pair = value.items.size() == 2 && value.items[0].is_scalar() && value.items[1].is_scalar();
+    diagnostics_.error(
+        value.place, fmt::format("'{}' takes one value for both directions, or one for each", field.name),
+        is_pair ? fmt::format("write {}: {{ u: {}, v: {} }}", field.name, value.items[0].text, value.items[1].text)
+                : fmt::format("write {}: {{ u: ..., v: ... }}", field.name));
+    return false;
   } else {
     u = v = &value;
   }

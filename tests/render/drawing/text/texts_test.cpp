@@ -36,6 +36,7 @@ TEST(Tex, WhatItDoesNotKnow) {
   EXPECT_EQ(slip_of("$x_$"), "2 something is missing behind this");
   EXPECT_EQ(slip_of("$\\frac{a}$"), "1 something is missing behind this");
   EXPECT_EQ(slip_of("$\\left( a$"), "1 \\left without \\right");
+  EXPECT_EQ(slip_of("$\\mathcal{Fx}$"), "11 \\mathcal has capital letters alone");
 }
 
 TEST(TextLayout, CharactersAndTheirFonts) {
@@ -49,6 +50,85 @@ TEST(TextLayout, CharactersAndTheirFonts) {
   }
   // Signs that Computer Modern Unicode lacks.
   EXPECT_EQ(laid_out("$\\partial$", "serif", 10).runs.at(0).font.family, "DejaVu Serif");
+  // Alphabets of Unicode (chart 1D400), one font for all letters of each.
+  const SheetText letters = laid_out("$\\mathcal{AFZ}\\mathfrak{AHz}\\mathbb{AR}$", "serif", 10);
+  EXPECT_EQ(characters(letters), "𝒜ℱ𝒵𝔄ℌ𝔷𝔸ℝ");
+  for (const TextRun& run : letters.runs) EXPECT_FALSE(run.font.italic) << run.text;
+  for (size_t k = 0; k + 2 < letters.runs.size(); ++k)
+    EXPECT_EQ(letters.runs[k].font.family, "DejaVu Math TeX Gyre") << letters.runs[k].text;
+}
+
+TEST(TextLayout, SignsHaveFonts) {
+  for (const char* name : {"varnothing",
+                           "aleph",
+                           "wp",
+                           "complement",
+                           "top",
+                           "bot",
+                           "lnot",
+                           "nexists",
+                           "triangle",
+                           "square",
+                           "blacksquare",
+                           "lozenge",
+                           "odot",
+                           "measuredangle",
+                           "therefore",
+                           "because",
+                           "dagger",
+                           "ddagger",
+                           "land",
+                           "lor",
+                           "ominus",
+                           "oslash",
+                           "sqcup",
+                           "sqcap",
+                           "uplus",
+                           "diamond",
+                           "supset",
+                           "supseteq",
+                           "ni",
+                           "prec",
+                           "succ",
+                           "asymp",
+                           "doteq",
+                           "models",
+                           "triangleq",
+                           "lesssim",
+                           "gtrsim",
+                           "vdash",
+                           "gets",
+                           "longmapsto",
+                           "implies",
+                           "longrightarrow",
+                           "impliedby",
+                           "longleftarrow",
+                           "iff",
+                           "updownarrow",
+                           "hookrightarrow",
+                           "Uparrow",
+                           "Downarrow",
+                           "nearrow",
+                           "searrow",
+                           "swarrow",
+                           "nwarrow",
+                           "iint",
+                           "iiint",
+                           "coprod",
+                           "bigcup",
+                           "bigcap",
+                           "bigoplus",
+                           "bigotimes",
+                           "lVert",
+                           "lbrace",
+                           "rbrack"})
+    EXPECT_GT(laid_out(std::string("$\\") + name + "$", "serif", 10).width, 0) << name;
+  const double height = laid_out("$a$", "serif", 10).ascent;
+  for (const char* name : {"check", "breve", "acute", "grave", "mathring", "widetilde"}) {
+    const SheetText text = laid_out(std::string("$\\") + name + "{a}$", "serif", 10);
+    EXPECT_GT(text.ascent, height + 1) << name;
+    EXPECT_LT(text.ascent, height + 4) << name;
+  }
 }
 
 TEST(TextLayout, Places) {
@@ -360,6 +440,7 @@ TEST(Latex, ShowsWhatTheLabelMeans) {
             "90\\ensuremath{^\\circ} \\ensuremath{\\le} \\ensuremath{\\alpha} \\ensuremath{\\times} "
             "\\ensuremath{\\text{\\O}}");
   EXPECT_EQ(for_latex("$90° ≤ αx ∈ ℝ$"), "$90{^\\circ} \\le  \\alpha x \\in  {\\mathbb{R}}$");
+  EXPECT_EQ(for_latex("$ℱ 𝔄$"), "${\\mathcal{F}} {\\mathfrak{A}}$");
   EXPECT_EQ(for_latex("$\\bm{x}\\degree \\div v$"), "$\\boldsymbol{x}{^\\circ} \\operatorname{div} v$");
   EXPECT_EQ(for_latex("ось x é"), "\\lekaloletters{T2A}{ось} x \\lekaloletters{T1}{é}");
   EXPECT_EQ(for_latex("$r_{ось}$"), "$r_{\\text{\\lekaloletters{T2A}{ось}}}$");

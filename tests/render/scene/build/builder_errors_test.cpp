@@ -346,6 +346,8 @@ TEST(BuilderErrors, FramesPlacesAndNets) {
   EXPECT_EQ(about("{ type: ball, frame: { z: x, x: x }, radius: 1 }"), "3:27 x is parallel to z\n");
   EXPECT_EQ(about("{ type: nurbs_surface, degree: { u: 3 }, points: [[[0, 0], [0, 1]], [[1, 0], [1, 1]]] }"),
             "3:37 'degree' takes one value for both directions, or { u: ..., v: ... }\n");
+  EXPECT_EQ(about("{ type: nurbs_surface, degree: [1, 1], points: [[[0, 0], [0, 1]], [[1, 0], [1, 1]]] }"),
+            "3:37 'degree' takes one value for both directions, or one for each\n");
   EXPECT_EQ(about("{ type: nurbs_surface, degree: 1, points: [[[0, 0], [0, 1]], [[1, 0]]] }"),
             "3:67 this row has 1 points, the rows before it 2\n");
   EXPECT_EQ(about("{ type: nurbs_curve, degree: 1, knots: clmped, points: [[0, 0], [0, 1]] }"),
