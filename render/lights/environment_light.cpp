@@ -43,13 +43,21 @@ class Choice {
 };
 
 class EnvironmentLamp final : public Light {
+  // What light from a direction asks for, side by side in memory.
+  struct Pixel {
+    float r = 0, g = 0, b = 0;
+    double density = 0;  // of its choice, per unit of the picture's square
+  };
+
  public:
   explicit EnvironmentLamp(const EnvironmentLight& light)
       : light_(light),
-        planes_(color_planes(light_.image)),
+        scale_(static_cast<float>(light_.intensity) * rgb(light_.color)),
         width_(light_.image.width),
         height_(light_.image.height),
-        rows_(row_weights()) {}
+        pixels_(static_cast<size_t>(width_) * height_),
+        rows_(row_weights()),
+        middle_(sample_of(Vec2(0.5))) {}
 
   int sample_count() const override { return light_.sampling.n * light_.sampling.n; }
   LightSample sample(const Vec3& point, int index, double r1, double r2) const override {
@@ -58,14 +66,12 @@ class EnvironmentLamp final : public Light {
     return sample;
   }
   LightSample sample_all(const Vec3&, const Vec2& square) const override {
-    const auto [row, y] = rows_.at(std::min(square.y, 1 - 0x1p-53));
-    const auto [column, x] = columns_[row].at(std::min(square.x, 1 - 0x1p-53));
-    return sample_at(direction_of((static_cast<double>(column) + x) / width_, (static_cast<double>(row) + y) / height_),
-                     row, column);
+    // Asked for at every place where lamps are compared.
+    return square == Vec2(0.5) ? middle_ : sample_of(square);
   }
   std::optional<LightSample> towards(const Vec3&, const Vec3& direction) const override {
     const Vec2 place = place_of(direction);
-    return sample_at(direction, pixel(place.y, height_), pixel(place.x, width_));
+    return sample_at(direction, place, pixels_[index(pixel(place.y, height_), pixel(place.x, width_))]);
   }
   bool has_size() const override { return true; }
   bool is_backdrop() const override { return light_.visible; }
@@ -77,12 +83,18 @@ class EnvironmentLamp final : public Light {
   static size_t pixel(double place, int count) {
     return static_cast<size_t>(std::clamp(static_cast<int>(place * count), 0, count - 1));
   }
-  LightSample sample_at(const Vec3& direction, size_t row, size_t column) const {
-    // Per unit of the picture's square, then of solid angle: 2 pi^2 sin(angle from z) of it to one.
-    const double of_square = rows_.probability(row) * height_ * columns_[row].probability(column) * width_;
+  LightSample sample_of(const Vec2& square) const {
+    const auto [row, y] = rows_.at(std::min(square.y, 1 - 0x1p-53));
+    const auto [column, x] = columns_[row].at(std::min(square.x, 1 - 0x1p-53));
+    const Vec3 direction =
+        direction_of((static_cast<double>(column) + x) / width_, (static_cast<double>(row) + y) / height_);
+    return sample_at(direction, place_of(direction), pixels_[index(row, column)]);
+  }
+  LightSample sample_at(const Vec3& direction, const Vec2& place, const Pixel& pixel) const {
+    // Per unit of solid angle: 2 pi^2 sin(angle from z) of it to one of the picture's square.
     const double sine = std::sqrt(std::max(1e-12, 1 - direction.z * direction.z));
-    LightSample sample{direction, kInfinity, {}, 1, of_square / (2 * kPi * kPi * sine)};
-    sample.irradiance = static_cast<float>(1 / sample.density) * radiance(direction);
+    LightSample sample{direction, kInfinity, {}, 1, pixel.density / (2 * kPi * kPi * sine)};
+    sample.irradiance = static_cast<float>(1 / sample.density) * radiance(place);
     return sample;
   }
   // From the left and from above, in [0, 1].
@@ -94,24 +106,30 @@ class EnvironmentLamp final : public Light {
     const double azimuth = 0.5 * kPi - kTwoPi * (u - 0.5) + light_.rotation, polar = kPi * v;
     return {std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)};
   }
+  size_t index(size_t row, size_t column) const { return row * static_cast<size_t>(width_) + column; }
+  // Of a pixel or one just beyond the picture.
   Spectrum color(int row, int column) const {
-    const size_t i = static_cast<size_t>(std::clamp(row, 0, height_ - 1)) * width_ + (column + width_) % width_;
-    return {std::max(0.0f, planes_.r[i]), std::max(0.0f, planes_.g[i]), std::max(0.0f, planes_.b[i])};
+    const int y = std::clamp(row, 0, height_ - 1), x = column < 0 ? width_ - 1 : column < width_ ? column : 0;
+    const Pixel& pixel = pixels_[index(static_cast<size_t>(y), static_cast<size_t>(x))];
+    return {pixel.r, pixel.g, pixel.b};
   }
-  Spectrum radiance(const Vec3& direction) const {
-    const Vec2 place = place_of(direction);
+  Spectrum radiance(const Vec2& place) const {
     const double x = place.x * width_ - 0.5, y = place.y * height_ - 0.5;
     const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
     const auto a = static_cast<float>(x - column), b = static_cast<float>(y - row);
     const Spectrum joined = (1 - b) * ((1 - a) * color(row, column) + a * color(row, column + 1)) +
                             b * ((1 - a) * color(row + 1, column) + a * color(row + 1, column + 1));
-    return static_cast<float>(light_.intensity) * rgb(light_.color) * joined;
+    return scale_ * joined;
   }
+  // Fills in the pixels and their choice within their rows.
   Choice row_weights() {
+    const ColorPlanes planes = color_planes(light_.image);
     double mean = 0;
-    for (size_t i = 0; i < planes_.r.size(); ++i)
-      mean += std::max({0.0f, planes_.r[i], planes_.g[i], planes_.b[i]}) / static_cast<double>(planes_.r.size());
-    std::vector<double> rows, weights(static_cast<size_t>(width_));
+    for (size_t i = 0; i < pixels_.size(); ++i) {
+      mean += std::max({0.0f, planes.r[i], planes.g[i], planes.b[i]}) / static_cast<double>(pixels_.size());
+      pixels_[i] = {std::max(0.0f, planes.r[i]), std::max(0.0f, planes.g[i]), std::max(0.0f, planes.b[i]), 0};
+    }
+    std::vector<double> sums, weights(static_cast<size_t>(width_));
     for (int row = 0; row < height_; ++row) {
       for (int column = 0; column < width_; ++column) {
         float brightest = 0;
@@ -120,16 +138,23 @@ class EnvironmentLamp final : public Light {
         weights[static_cast<size_t>(column)] = brightest + 1e-3 * mean + 1e-30;
       }
       columns_.emplace_back(weights);
-      rows.push_back(columns_.back().sum() * std::sin(kPi * (row + 0.5) / height_));
+      sums.push_back(columns_.back().sum() * std::sin(kPi * (row + 0.5) / height_));
     }
-    return Choice(rows);
+    const Choice rows(sums);
+    for (size_t row = 0; row < columns_.size(); ++row)
+      for (size_t column = 0; column < weights.size(); ++column)
+        pixels_[index(row, column)].density =
+            rows.probability(row) * height_ * columns_[row].probability(column) * width_;
+    return rows;
   }
 
   EnvironmentLight light_;
-  ColorPlanes planes_;
+  Spectrum scale_;
   int width_, height_;
+  std::vector<Pixel> pixels_;
   std::vector<Choice> columns_;  // of each row
   Choice rows_;
+  LightSample middle_;
 };
 
 // What makes a picture no panorama: one infinite pixel would take all samples.

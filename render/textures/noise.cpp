@@ -2,6 +2,7 @@
 #include "render/textures/noise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/describe.h"
@@ -22,11 +23,20 @@ double slope(uint64_t hash, const Vec3& way) {
   return ((hash & 1) ? -u : u) + ((hash & 2) ? -v : v);
 }
 
-uint64_t lattice(const Vec3& cell, int i, int j, int k, uint64_t seed) {
-  uint64_t hash = seed;
-  for (const double x : {cell.x + i, cell.y + j, cell.z + k})
-    hash = hash_combine(hash, static_cast<uint64_t>(static_cast<int64_t>(x)));
-  return hash;
+// Of the corners of a lattice cell, i + 2 j + 4 k for that at (i, j, k).
+std::array<uint64_t, 8> corner_hashes(const Vec3& cell, uint64_t seed) {
+  const auto with = [](uint64_t hash, double x) {
+    return hash_combine(hash, static_cast<uint64_t>(static_cast<int64_t>(x)));
+  };
+  std::array<uint64_t, 8> hashes;
+  for (int i = 0; i < 2; ++i) {
+    const uint64_t x = with(seed, cell.x + i);
+    for (int j = 0; j < 2; ++j) {
+      const uint64_t xy = with(x, cell.y + j);
+      for (int k = 0; k < 2; ++k) hashes[i + 2 * j + 4 * k] = with(xy, cell.z + k);
+    }
+  }
+  return hashes;
 }
 
 }  // namespace
@@ -36,11 +46,12 @@ double gradient_noise(const Vec3& place, uint64_t seed) {
   if (!(std::max({std::fabs(place.x), std::fabs(place.y), std::fabs(place.z)}) < kFar)) return 0;
   const Vec3 cell = glm::floor(place), way = place - cell;
   const Vec3 w(smooth(way.x), smooth(way.y), smooth(way.z));
+  const std::array<uint64_t, 8> hashes = corner_hashes(cell, seed);
   double sum = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
     const double share = (i ? w.x : 1 - w.x) * (j ? w.y : 1 - w.y) * (k ? w.z : 1 - w.z);
-    if (share > 0) sum += share * slope(lattice(cell, i, j, k, seed), way - Vec3(i, j, k));
+    if (share > 0) sum += share * slope(hashes[corner], way - Vec3(i, j, k));
   }
   return std::clamp(sum, -1.0, 1.0);
 }
