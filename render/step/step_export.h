@@ -30,9 +30,10 @@ struct StepFile {
 
 // Closed bodies are solids, with voids; open ones, surfaces and sets of surfaces are shells; curves are wire frames,
 // points are points. Planes, cylinders, cones, spheres, tori, lines, circles, ellipses and NURBS stand as they are, in
-// double precision; anything else is fitted by a B-spline nearer than `tolerance` times its size. Colours are
-// sRGB. `unit`: what a scene unit is (info.unit); millimetres, with a note, where it is not known. Throws
-// std::invalid_argument where nothing can be written.
+// double precision, also where sweeps make them; other extrusions and revolutions keep their section; anything else is
+// fitted by a B-spline nearer than `tolerance` times its size. Colours are sRGB. `unit`: what a scene unit is
+// (info.unit); millimetres, with a note, where it is not known. Throws std::invalid_argument where nothing can be
+// written.
 StepFile step_file(const std::vector<StepShape>& shapes, const std::string& title, const std::string& unit,
                    double tolerance);
 

@@ -7,13 +7,17 @@
 #include <stdexcept>
 
 #include "geometry/composition.h"
-#include "geometry/curves/analytic/ellipse.h"
+#include "geometry/curves/analytic/circle.h"
+#include "geometry/curves/operations/curve_part.h"
 #include "geometry/curves/operations/nurbs_of.h"
 #include "geometry/curves/splines/nurbs_curve.h"
 #include "geometry/describe.h"
 #include "geometry/external/external_surface.h"
-#include "geometry/queries/quadrics/canonical_surface.h"
+#include "geometry/queries/contours/analytic/elementary_surface.h"
 #include "geometry/queries/quadrics/conic_of_curve.h"
+#include "geometry/surfaces/swept/extrusion.h"
+#include "geometry/surfaces/swept/revolution.h"
+#include "geometry/transformed.h"
 
 namespace lekalo::render {
 
@@ -110,6 +114,17 @@ std::optional<CanonicalConic> ellipse_of(const Curve& curve, const NurbsOfCurve&
   return conic && conic->kind == CanonicalConic::Kind::ellipse ? conic : std::nullopt;
 }
 
+CurvePtr over(const CurvePtr& curve, const Interval& part) {
+  return part == curve->domain() ? curve : std::make_shared<CurvePart>(curve, part);
+}
+
+bool keeps_angles(const Mat3& map) {
+  const Mat3 square = glm::transpose(map) * map;
+  for (int k = 0; k < 3; ++k)
+    if (!(glm::length(square[k] - square[0][0] * Mat3(1.0)[k]) <= kRound * square[0][0])) return false;
+  return true;
+}
+
 // Of a surface that turns about an axis, or a plane: in the world's lengths.
 struct Elementary {
   Vec3 origin, x, y, z;
@@ -186,20 +201,19 @@ std::string StepGeometry::curve(const Curve& curve) {
 }
 
 std::optional<StepGeometry::SurfaceEntity> StepGeometry::elementary(const SurfacePtr& surface) {
-  const auto found = canonical(surface);
+  const auto found = elementary_surface(surface);
   if (!found) return std::nullopt;
   using Kind = CanonicalSurface::Kind;
-  const Rectangle domain = surface->domain();
   const auto middle = [](const Interval& range) { return range.width() < kInfinity ? range.middle() : 0.0; };
-  const SurfaceJet there = surface->evaluate(middle(domain.u), middle(domain.v), 1);
+  const Rectangle own = surface->domain(), domain = found->surface->domain();
+  const SurfaceJet there = surface->evaluate(middle(own.u), middle(own.v), 1);
   const Vec3 normal = glm::cross(there.du(), there.dv());
   const auto entity = [&](const std::string& text, const Vec3& own_normal) {
     return SurfaceEntity{writer_.add(text), glm::dot(normal, own_normal) > 0};
   };
   if (found->kind == Kind::plane) {
     const Vec3 z = glm::normalize(normal);
-    return entity(fmt::format("PLANE('',{})", writer_.placement(surface->point(0, 0), z, glm::normalize(there.du()))),
-                  z);
+    return entity(fmt::format("PLANE('',{})", writer_.placement(found->origin, z, glm::normalize(there.du()))), z);
   }
   const auto scale = found->scale();
   if (!scale) return std::nullopt;
@@ -239,10 +253,44 @@ std::optional<StepGeometry::SurfaceEntity> StepGeometry::elementary(const Surfac
                 from_axis);
 }
 
-StepGeometry::SurfaceEntity StepGeometry::surface(const SurfacePtr& surface, bool as_spline) {
-  if (!as_spline)
-    if (const auto found = elementary(surface)) return *found;
+std::optional<StepGeometry::SurfaceEntity> StepGeometry::extruded(const SurfacePtr& surface) {
+  const auto entity = [&](const CurvePtr& section, const Vec3& along) {
+    const std::string curve_name = curve(*section), direction = writer_.direction(glm::normalize(along)),
+                      vector =
+                          writer_.shared(fmt::format("VECTOR('',{},{})", direction, step_real(glm::length(along))));
+    return SurfaceEntity{writer_.add(fmt::format("SURFACE_OF_LINEAR_EXTRUSION('',{},{})", curve_name, vector)), true};
+  };
+  if (const auto [extrusion, map] = placed<ExtrusionSurface>(*surface); extrusion)
+    return entity(transformed(over(extrusion->curve(), extrusion->domain().u), map), map.direction(extrusion->along()));
+  // Elliptic cylinders.
+  const auto known = canonical(surface);
+  if (!known || known->kind != CanonicalSurface::Kind::cone || known->widening != 0) return std::nullopt;
+  const Affine to_world{glm::inverse(known->to_local), known->origin};
+  const auto circle = std::make_shared<Circle>(Frame(), known->radius, surface->domain().u);
+  return entity(transformed(circle, to_world), known->height * to_world.linear[2]);
+}
+
+std::optional<StepGeometry::SurfaceEntity> StepGeometry::revolved(const SurfacePtr& surface) {
+  const auto [revolution, map] = placed<RevolutionSurface>(*surface);
+  if (!revolution || !keeps_angles(map.linear)) return std::nullopt;
+  const Axis axis = revolution->axis();
+  const Rectangle domain = revolution->domain();
+  // The seam is where the surface begins.
+  const Affine turn = Affine::rotation(domain.v.lo, axis.along, axis.through);
+  const std::string section = curve(*transformed(over(revolution->curve(), domain.u), map * turn));
+  const std::string through = writer_.point(map.point(axis.through)),
+                    along = writer_.direction(glm::normalize(map.direction(axis.along))),
+                    line = writer_.shared(fmt::format("AXIS1_PLACEMENT('',{},{})", through, along));
+  // The entity's u is the angle; a mirror image turns the other way.
+  return SurfaceEntity{writer_.add(fmt::format("SURFACE_OF_REVOLUTION('',{},{})", section, line)),
+                       map.determinant() < 0};
+}
+
+StepGeometry::SurfaceEntity StepGeometry::surface(const SurfacePtr& surface) {
+  if (const auto found = elementary(surface)) return *found;
   if (!surface->bounded()) throw std::invalid_argument("it has no bounds; give it a domain");
+  if (const auto found = extruded(surface)) return *found;
+  if (const auto found = revolved(surface)) return *found;
   if (const auto form = exact_form(*surface)) return {spline(*form), true};
   const Rectangle domain = surface->domain();
   const bool closed_u = is_closed_along(*surface, Along::u), closed_v = is_closed_along(*surface, Along::v);

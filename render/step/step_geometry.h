@@ -26,13 +26,15 @@ class StepGeometry {
     std::string name;
     bool forward = true;  // its normal is r_u x r_v
   };
-  // `as_spline`: even where it is a quadric or a torus. Throws std::invalid_argument as curve().
-  SurfaceEntity surface(const geometry::SurfacePtr& surface, bool as_spline = false);
+  // Throws std::invalid_argument as curve().
+  SurfaceEntity surface(const geometry::SurfacePtr& surface);
 
  private:
   std::string spline(const geometry::NurbsCurveForm& form);
   std::string spline(const geometry::NurbsSurfaceForm& form);
   std::optional<SurfaceEntity> elementary(const geometry::SurfacePtr& surface);
+  std::optional<SurfaceEntity> extruded(const geometry::SurfacePtr& surface);
+  std::optional<SurfaceEntity> revolved(const geometry::SurfacePtr& surface);
 
   StepWriter& writer_;
   double tolerance_;

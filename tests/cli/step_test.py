@@ -40,6 +40,21 @@ geometry:
   ring: { type: torus_body, major_radius: 3, minor_radius: 1 }
   part: { type: torus_surface, major_radius: 3, minor_radius: 1, domain: { u: [0, 2], v: [0.5, 2] } }
   line: { type: parameter_line, of: tube, v: 0.7 }
+  pin: { type: extrusion_surface, of: { type: circle, radius: 1 }, along: [0, 0, 2] }
+  turned: { type: revolution_surface, of: { type: segment, from: [1, 0, 0], to: [2, 0, 1] } }
+  bowl: { type: revolution_surface, of: { type: circle, radius: 2, axis: y, arc: [0, 60] } }
+  flat: { type: bezier_surface, points: [[[0, 0, 1], [1, 0, 1]], [[0, 1, 1], [2, 2, 1]]] }
+"""
+
+SWEEPS = """
+lekalo: 1
+geometry:
+  leaning: { type: extrusion_surface, of: { type: circle, radius: 1 }, along: [1, 0, 2] }
+  oval: { type: extrusion_surface, of: { type: ellipse, semi_axes: [2, 1] }, along: [0, 0, 2] }
+  scaled: { type: cylinder_surface, radius: 1, height: 2, transform: { scale: [1, 2, 1] } }
+  wall: { type: extrusion_surface, of: { type: bezier_curve, points: [[0, 0, 0], [1, 2, 0], [2, 0, 0]] }, along: [0, 0, 2] }
+  apple: { type: revolution_surface, of: { type: circle, radius: 2, center: [1, 0, 0], axis: y, arc: [-30, 30] } }
+  vase: { type: revolution_surface, of: { type: bezier_curve, points: [[1, 0, 0], [2, 0, 1], [1, 0, 2]] } }
 """
 
 
@@ -80,11 +95,34 @@ class Step(ProgramTest):
             ("ring", "TOROIDAL_SURFACE", 0, 2),
             ("part", "TOROIDAL_SURFACE", 0, 4),
             ("line", "GEOMETRIC_CURVE_SET", 0, 1),
+            ("pin", "CYLINDRICAL_SURFACE", 1, 2),
+            ("turned", "CONICAL_SURFACE", 1, 2),
+            ("bowl", "SPHERICAL_SURFACE", 0, 3),
+            ("flat", "PLANE", 4, 0),
         ):
             _, errors = self.run_program("export", "analytic.yaml", name, "-o", "x.step")
             text = (self.folder / "x.step").read_text()
             self.assertEqual((text.count(f"={surface}("), text.count("=LINE("), text.count("=CIRCLE(")), (1, lines, circles), name)
             self.assertNotIn("B_SPLINE", text, name)
+            self.assertNotIn("fitted", errors, name)
+
+    def test_other_sweeps_keep_their_sections(self):
+        self.write("sweeps.yaml", SWEEPS)
+        for name, surface, section in (
+            ("leaning", "SURFACE_OF_LINEAR_EXTRUSION", "CIRCLE"),
+            ("oval", "SURFACE_OF_LINEAR_EXTRUSION", "ELLIPSE"),
+            ("scaled", "SURFACE_OF_LINEAR_EXTRUSION", "ELLIPSE"),
+            ("wall", "SURFACE_OF_LINEAR_EXTRUSION", "B_SPLINE_CURVE_WITH_KNOTS"),
+            ("apple", "SURFACE_OF_REVOLUTION", "CIRCLE"),
+            ("vase", "SURFACE_OF_REVOLUTION", "B_SPLINE_CURVE_WITH_KNOTS"),
+        ):
+            _, errors = self.run_program("export", "sweeps.yaml", name, "-o", "x.step")
+            text = (self.folder / "x.step").read_text()
+            entities = dict(re.findall(r"^#(\d+)=(.*);$", text, re.M))
+            swept = re.search(rf"={surface}\('',#(\d+),#(\d+)\)", text)
+            self.assertTrue(swept, name)
+            self.assertTrue(entities[swept[1]].startswith(section + "("), name)
+            self.assertNotIn("B_SPLINE_SURFACE", text, name)
             self.assertNotIn("fitted", errors, name)
 
     def test_fits_are_told(self):

@@ -3,15 +3,18 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <GProp_GProps.hxx>
 #include <Interface_Static.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Shape.hxx>
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "geometry/curves/analytic/circle.h"
 #include "geometry/queries/measures/mass_properties.h"
@@ -134,6 +137,90 @@ INSTANTIATE_TEST_SUITE_P(
              "[6.283185307179586, 0.5] }] }\n",
              0}),
     [](const auto& info) { return std::string(info.param.name); });
+
+// Swept lines and arcs are planes, cylinders, cones, spheres and tori there; other sweeps keep their exact section.
+struct Elementary {
+  const char* name;
+  const char* geometry;
+  std::map<GeomAbs_SurfaceType, int> faces;
+};
+
+class StepElementary : public testing::TestWithParam<Elementary> {};
+
+TEST_P(StepElementary, FacesAreWhatTheyAre) {
+  const BodyPtr body = body_of(GetParam().geometry);
+  const StepFile file = step_file({{"b", body, {}, {}}}, "b", "mm", 1e-9);
+  EXPECT_TRUE(file.notes.empty());
+  const TopoDS_Shape shape = tests::read_step(file.text);
+  EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
+  EXPECT_EQ(count(shape, TopAbs_SOLID), 1);
+  std::map<GeomAbs_SurfaceType, int> faces;
+  for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next())
+    ++faces[BRepAdaptor_Surface(TopoDS::Face(it.Current())).GetType()];
+  EXPECT_EQ(faces, GetParam().faces);
+  GProp_GProps area, volume;
+  BRepGProp::SurfaceProperties(shape, area, 1e-11);
+  BRepGProp::VolumeProperties(shape, volume, 1e-11);
+  const geometry::MassProperties own = measure(*body);
+  EXPECT_NEAR(area.Mass(), own.area.value, 1e-9 * own.area.value);
+  EXPECT_NEAR(volume.Mass(), own.volume.value, 1e-9 * own.volume.value);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Bodies, StepElementary,
+    testing::Values(
+        Elementary{"plate",
+                   "  b: { type: extrusion_body, of: [{ type: rectangle, size: [4, 3], corner_radius: 0.5 }, "
+                   "{ type: circle, radius: 0.6 }], along: [0, 0, 1] }\n",
+                   {{GeomAbs_Plane, 6}, {GeomAbs_Cylinder, 5}}},
+        Elementary{"plate_mirrored",
+                   "  b: { type: extrusion_body, of: { type: rectangle, size: [4, 3], corner_radius: 0.5 }, "
+                   "along: [0, 0, 1], transform: { mirror: x } }\n",
+                   {{GeomAbs_Plane, 6}, {GeomAbs_Cylinder, 4}}},
+        Elementary{"drafted",
+                   "  b: { type: extrusion_body, of: { type: rectangle, size: [4, 3], corner_radius: 0.5 }, "
+                   "along: [0, 0, 1], draft: 10 }\n",
+                   {{GeomAbs_Plane, 6}, {GeomAbs_Cone, 4}}},
+        Elementary{"ring",
+                   "  b: { type: revolution_body, of: { type: rectangle, size: [1, 0.6], center: [2, 0], "
+                   "corner_radius: 0.2 }, axis: y }\n",
+                   {{GeomAbs_Plane, 2}, {GeomAbs_Cylinder, 2}, {GeomAbs_Torus, 4}}},
+        Elementary{"tyre",
+                   "  b: { type: revolution_body, of: { type: circle, radius: 0.6, center: [2, 0, 0] }, axis: y }\n",
+                   {{GeomAbs_Torus, 1}}},
+        Elementary{"sector",
+                   "  b: { type: revolution_body, of: { type: circle, radius: 0.6, center: [2, 0, 0] }, axis: y, "
+                   "angle: 100 }\n",
+                   {{GeomAbs_Plane, 2}, {GeomAbs_Torus, 1}}},
+        Elementary{"bulb",
+                   "  b: { type: revolution_body, of: { type: circle, radius: 2, arc: [-90, 90] }, axis: y }\n",
+                   {{GeomAbs_Sphere, 1}}},
+        Elementary{"cone",
+                   "  b: { type: revolution_body, of: { type: segment, from: [0, 2, 0], to: [1, 0, 0] }, axis: y }\n",
+                   {{GeomAbs_Plane, 1}, {GeomAbs_Cone, 1}}}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+// Without the quadrature's doubt of OCCT: what the faces are.
+TEST(Step, OtherSweepsKeepTheirSections) {
+  const auto kind_of = [](const std::string& geometry) {
+    const TopoDS_Shape shape = tests::read_step(step_file({{"b", body_of(geometry), {}, {}}}, "b", "mm", 1e-9).text);
+    EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
+    std::map<GeomAbs_SurfaceType, int> faces;
+    for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next())
+      ++faces[BRepAdaptor_Surface(TopoDS::Face(it.Current())).GetType()];
+    return faces;
+  };
+  using Faces = std::map<GeomAbs_SurfaceType, int>;
+  const Faces extruded{{GeomAbs_Plane, 2}, {GeomAbs_SurfaceOfExtrusion, 1}};
+  EXPECT_EQ(kind_of("  b: { type: extrusion_body, of: { type: circle, radius: 1 }, along: [0.4, 0, 1] }\n"), extruded);
+  EXPECT_EQ(kind_of("  b: { type: extrusion_body, of: { type: ellipse, semi_axes: [2, 1] }, along: [0, 0, 1] }\n"),
+            extruded);
+  EXPECT_EQ(kind_of("  b: { type: cylinder_body, radius: 1, height: 2, transform: { scale: [1, 2, 1] } }\n"), extruded);
+  const Faces vase{{GeomAbs_SurfaceOfRevolution, 1}};
+  EXPECT_EQ(kind_of("  b: { type: revolution_body, of: { type: bezier_curve, points: [[0, 0, 0], [2, 0.1, 0], "
+                    "[1, 2, 0], [0, 3, 0]] }, axis: y }\n"),
+            vase);
+}
 
 // A sheet is an open shell; a curve keeps its length.
 TEST(Step, SheetsAndCurves) {

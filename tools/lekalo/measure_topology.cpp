@@ -9,8 +9,8 @@
 #include "geometry/bodies/topology/characteristics.h"
 #include "geometry/bodies/topology/selection.h"
 #include "geometry/body.h"
+#include "geometry/queries/contours/analytic/elementary_surface.h"
 #include "geometry/queries/differential/roundness.h"
-#include "geometry/queries/quadrics/canonical_surface.h"
 #include "geometry/queries/quadrics/conic_of_curve.h"
 #include "measure.h"
 
@@ -34,7 +34,7 @@ const char* kind_name(geometry::EdgeKind kind) {
 // What a surface or a curve is, in a word.
 const char* shape_of(const geometry::SurfacePtr& surface) {
   using Kind = geometry::CanonicalSurface::Kind;
-  const auto known = geometry::canonical(surface);
+  const auto known = geometry::elementary_surface(surface);
   if (!known) return surface->as_nurbs() ? "spline" : "surface";
   switch (known->kind) {
     case Kind::plane:

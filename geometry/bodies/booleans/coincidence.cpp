@@ -5,25 +5,17 @@
 #include <cmath>
 
 #include "geometry/bodies/booleans/same_sweep.h"
-#include "geometry/bodies/constructions/profile.h"
 #include "geometry/bodies/primitives/construct.h"
 #include "geometry/curves/on_surfaces/projected_image.h"
 #include "geometry/curves/splines/polynomial_approximation.h"
 #include "geometry/queries/closest/closest_point.h"
+#include "geometry/queries/contours/analytic/elementary_surface.h"
 #include "geometry/queries/quadrics/canonical_surface.h"
-#include "geometry/surfaces/analytic/cone.h"
-#include "geometry/surfaces/analytic/plane.h"
-#include "geometry/surfaces/analytic/sphere.h"
-#include "geometry/surfaces/analytic/torus.h"
-#include "geometry/surfaces/swept/extrusion.h"
-#include "geometry/surfaces/swept/revolution.h"
 #include "geometry/transformed.h"
 
 namespace lekalo::geometry {
 
 namespace {
-
-constexpr double kSameCurve = 1e-12;  // of its size: nearer to a straight line or a plane of the axis is on it
 
 // The equation of a canonical surface in its own coordinates, and its gradient.
 double equation(const CanonicalSurface& s, const Vec3& q, Vec3& gradient) {
@@ -68,73 +60,6 @@ double distance_from(const CanonicalSurface& s, const Vec3& p) {
   const double value = equation(s, s.local(p), gradient);
   const double steep = glm::length(glm::transpose(s.to_local) * gradient);
   return steep > 0 ? std::abs(value) / steep : std::abs(value);
-}
-
-bool is_straight(const Curve& curve) {
-  const Interval t = curve.domain();
-  const Vec3 a = curve.point(t.lo), b = curve.point(t.hi), along = glm::normalize(b - a);
-  for (int k = 1; k < 12; ++k) {
-    const Vec3 p = curve.point(t.lo + t.width() * k / 12) - a;
-    if (!(glm::length(p - glm::dot(p, along) * along) <= kSameCurve * glm::length(b - a))) return false;
-  }
-  return true;
-}
-
-// The same points with parameters of their kind; null where a meridian is no segment or arc in a plane of the axis, and
-// for tori that pass their axis.
-SurfacePtr analytic_form(const RevolutionSurface& surface) {
-  const Curve& curve = *surface.curve();
-  const Axis axis = surface.axis();
-  const Interval t = curve.domain();
-  const auto height = [&](const Vec3& p) { return glm::dot(p - axis.through, axis.along); };
-  const auto away = [&](const Vec3& p) { return p - axis.through - height(p) * axis.along; };
-  if (is_straight(curve)) {
-    const Vec3 a = curve.point(t.lo), b = curve.point(t.hi);
-    const Vec3 radial = glm::normalize(glm::length(away(a)) > glm::length(away(b)) ? away(a) : away(b));
-    const double ra = glm::dot(away(a), radial), rb = glm::dot(away(b), radial), h = height(b) - height(a),
-                 same = kSameCurve * (std::abs(ra) + std::abs(rb) + glm::length(b - a));
-    if (!(glm::length(away(a) - ra * radial) <= same && glm::length(away(b) - rb * radial) <= same)) return nullptr;
-    const Frame frame = frame_from(axis.through + height(a) * axis.along, axis.along, radial);
-    if (std::abs(h) <= same) return std::make_shared<Plane>(frame);
-    return std::make_shared<ConeSurface>(frame, ra, std::abs(ra - rb) <= same ? ra : rb, h);
-  }
-  const auto circle = circle_of(curve);
-  if (!circle) return nullptr;
-  const Frame& of = circle->frame();
-  const double radius = circle->semi_axis_x(), major = glm::length(away(of.origin)),
-               same = kSameCurve * (radius + glm::length(of.origin - axis.through));
-  if (!(std::abs(glm::dot(of.z, axis.along)) <= kSameCurve && std::abs(glm::dot(of.z, away(of.origin))) <= same))
-    return nullptr;
-  Frame frame = frame_about(axis.through + height(of.origin) * axis.along, axis.along);
-  if (major <= same) return std::make_shared<SphereSurface>(frame, radius);
-  return major >= radius ? std::make_shared<TorusSurface>(frame, major, radius) : nullptr;
-}
-
-// The same; null for curves that are no segments and no arcs in planes across the vector.
-SurfacePtr analytic_form(const ExtrusionSurface& surface) {
-  const Curve& curve = *surface.curve();
-  const Interval t = curve.domain();
-  const double length = glm::length(surface.along());
-  const Vec3 along = surface.along() / length;
-  if (is_straight(curve)) {
-    const Vec3 a = curve.point(t.lo), side = curve.point(t.hi) - a;
-    return std::make_shared<Plane>(frame_from(a, glm::normalize(glm::cross(side, along)), side));
-  }
-  const auto circle = circle_of(curve);
-  if (!circle || !(std::abs(std::abs(glm::dot(circle->frame().z, along)) - 1) <= kSameCurve)) return nullptr;
-  return std::make_shared<CylinderSurface>(frame_about(circle->frame().origin, along), circle->semi_axis_x(), length);
-}
-
-// The equation of a surface, also of one whose parameters are others than those of its kind.
-std::optional<CanonicalSurface> equation_of(const SurfacePtr& surface) {
-  if (const auto* moved = dynamic_cast<const TransformedSurface*>(surface.get())) {
-    const auto original = equation_of(moved->original());
-    return original ? canonical(transformed(original->surface, moved->map())) : std::nullopt;
-  }
-  SurfacePtr form = surface;
-  if (const auto* turned = dynamic_cast<const RevolutionSurface*>(surface.get())) form = analytic_form(*turned);
-  if (const auto* extruded = dynamic_cast<const ExtrusionSurface*>(surface.get())) form = analytic_form(*extruded);
-  return form ? canonical(form) : std::nullopt;
 }
 
 // Enough points to tell surfaces of the fourth degree apart.
@@ -338,7 +263,7 @@ Curve2Ptr simple_image(const Surface& surface, const Curve2Ptr& image) {
 std::optional<bool> have_same_equation(const SurfacePtr& a, const SurfacePtr& b, const Vec3& near, double size,
                                        double tolerance) {
   if (is_same(a, b)) return true;
-  const auto of_a = equation_of(a), of_b = equation_of(b);
+  const auto of_a = elementary_surface(a), of_b = elementary_surface(b);
   if (!of_a || !of_b) return are_one_sweep(a, b, tolerance) ? std::optional(true) : std::nullopt;
   if ((of_a->kind == CanonicalSurface::Kind::plane) != (of_b->kind == CanonicalSurface::Kind::plane)) return false;
   for (const Vec3& p : points_of(*of_a, near, size))

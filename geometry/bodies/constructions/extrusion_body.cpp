@@ -7,8 +7,10 @@
 
 #include "geometry/bodies/constructions/profile_offset.h"
 #include "geometry/bodies/constructions/swept_body.h"
+#include "geometry/curves/analytic/circle.h"
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/derived/composite_curve.h"
+#include "geometry/surfaces/analytic/cone.h"
 #include "geometry/surfaces/nets/lofts.h"
 #include "geometry/surfaces/swept/extrusion.h"
 #include "geometry/transformed.h"
@@ -21,6 +23,25 @@ std::vector<CurvePtr> moved(const std::vector<CurvePtr>& curves, const Vec3& by)
   std::vector<CurvePtr> result;
   for (const CurvePtr& curve : curves) result.push_back(transformed(curve, Affine::translation(by)));
   return result;
+}
+
+// Between a segment of the profile and its offset; arcs about one axis make a cone with the arcs' parameter.
+SurfacePtr drafted_side(const CurvePtr& from, const CurvePtr& to) {
+  constexpr int kPlaces = 12;
+  constexpr double kSame = 1e-13;
+  const auto* arc = dynamic_cast<const Circle*>(from.get());
+  if (!arc) return ruled_surface(from, to);
+  const Frame& frame = arc->frame();
+  const Interval t = arc->domain();
+  const Vec3 begin = to->point(t.lo) - frame.origin;
+  const double height = glm::dot(begin, frame.z), radius = glm::length(begin - height * frame.z);
+  const double size = arc->radius() + glm::length(begin) + glm::length(frame.origin);
+  for (int k = 0; k <= kPlaces; ++k) {
+    const double at = t.lo + t.width() * k / kPlaces;
+    const Vec3 expected = frame.point({radius * std::cos(at), radius * std::sin(at), height});
+    if (!(glm::length(to->point(at) - expected) <= kSame * size)) return ruled_surface(from, to);
+  }
+  return std::make_shared<ConeSurface>(frame, arc->radius(), radius, height, Rectangle{t, {0, 1}});
 }
 
 // The profile at the end of the vector is one too: offsets may have run into each other.
@@ -71,7 +92,7 @@ Body extruded(const Fields& f) {
       if (draft == 0)
         side = std::make_shared<ExtrusionSurface>(from, whole);
       else
-        side = ruled_surface(from, to);
+        side = drafted_side(from, to);
       const auto rail = std::make_shared<Segment>(from->point(from->domain().lo), to->point(to->domain().lo));
       swept.sides.push_back({std::move(side), from, to, rail});
     }

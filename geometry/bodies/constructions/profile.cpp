@@ -8,6 +8,7 @@
 #include "geometry/bodies/trims/trim_loops.h"
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/derived/composite_curve.h"
+#include "geometry/curves/operations/circle_of_curve.h"
 #include "geometry/curves/operations/curve_part.h"
 #include "geometry/curves/operations/smooth_pieces.h"
 #include "geometry/curves/splines/nurbs_curve.h"
@@ -210,34 +211,6 @@ std::vector<CurvePtr> smooth_segments(const CurvePtr& curve) {
   const auto form = curve->as_nurbs();
   if (form && form->maps.empty()) return parts_of_spline(curve, *form);
   return parts_at_corners(curve);
-}
-
-std::shared_ptr<const Circle> circle_of(const Curve& curve) {
-  constexpr int kSamples = 12;
-  constexpr double kSame = 1e-12;
-  const Interval domain = curve.domain();
-  Vec3 center(0), normal(0);
-  double radius = 0;
-  const double size = bounds(curve).diameter();
-  for (int k = 0; k <= kSamples; ++k) {
-    const double t = domain.lo + domain.width() * k / kSamples;
-    const EndState state = state_at(curve, t);
-    const double curvature = glm::length(state.curvature);
-    if (!(curvature * size > 1e-6)) return nullptr;
-    const Vec3 found = curve.point(t) + state.curvature / (curvature * curvature);
-    const Vec3 turning = glm::cross(state.tangent, state.curvature / curvature);
-    if (k == 0) center = found, normal = turning, radius = 1 / curvature;
-    const double same = kSame * (radius + glm::length(center));
-    if (glm::length(found - center) > same || std::abs(1 / curvature - radius) > same ||
-        glm::length(turning - normal) > kSame)
-      return nullptr;
-  }
-  const Vec3 begin = curve.point(domain.lo) - center, end = curve.point(domain.hi) - center;
-  const Frame frame = frame_from(center, normal, begin);
-  double angle = std::atan2(glm::dot(end, frame.y), glm::dot(end, frame.x));
-  if (angle <= 1e-9) angle += kTwoPi;
-  if (curve.is_closed()) angle = kTwoPi;
-  return std::make_shared<Circle>(frame, glm::length(begin), Interval(0, angle));
 }
 
 std::vector<Vec3> Profile::samples() const {

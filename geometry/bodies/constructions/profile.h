@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "geometry/curve.h"
-#include "geometry/curves/analytic/circle.h"
 #include "geometry/describe.h"
 
 namespace lekalo::geometry {
@@ -35,10 +34,6 @@ std::vector<CurvePtr> smooth_segments(const CurvePtr& curve);
 // holes.
 Profile read_profile(const Fields& fields, const char* field);
 Profile profile_of(const std::vector<CurvePtr>& curves, const char* field);
-
-// The circle that a curve runs along, its frame's x towards the curve's beginning and the curve counterclockwise, with
-// the angle that it runs; none of another curve.
-std::shared_ptr<const Circle> circle_of(const Curve& curve);
 
 // Turns the plane so that its normal has a positive component along the direction. Throws FieldError (that field) where
 // the direction lies in the plane.

@@ -13,6 +13,7 @@
 #include "geometry/curves/analytic/segment.h"
 #include "geometry/curves/derived/composite_curve.h"
 #include "geometry/curves/derived/reparametrized_curve.h"
+#include "geometry/curves/operations/circle_of_curve.h"
 #include "geometry/curves/operations/curve_part.h"
 #include "geometry/no_longer.h"
 #include "geometry/transformed.h"
