@@ -15,7 +15,7 @@ commands=(
   'test:Run a regression suite of pictures and numbers'
   'measure:Length, area, volume, moments; topology; distance, intersections; comparison with a table'
   'trace:All hits of rays with the scene'\''s objects, in order'
-  'draw:Draw a scene as lines (SVG, PDF, PNG, TikZ), visible and hidden ones told apart'
+  'draw:Draw a scene as lines (SVG, PDF, PNG, DXF, TikZ), visible and hidden ones told apart'
   'export:Write what a scene shows as triangles (OBJ, PLY, STL, glTF) and polylines (OBJ, glTF), curves and surfaces as NURBS (JSON), boundary representations (STEP), the scene for POV-Ray, a web page (HTML), or paths of cutters (CLDATA)'
   'types:List the types that scene files can name, or explain one, or a section'
   'schema:Print the JSON Schema of scene files or suites, for editors'
@@ -225,7 +225,7 @@ case $command in
       ':scene:_files -g "*.(yaml|yml|json)"' \
       '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
       '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
-      '*-o[file to write (svg, pdf, png, tikz; tex with --standalone) in place of the scene'\''s outputs; repeatable]:FILE:_files' '*--output[file to write (svg, pdf, png, tikz; tex with --standalone) in place of the scene'\''s outputs; repeatable]:FILE:_files' \
+      '*-o[file to write (svg, pdf, png, dxf, tikz; tex with --standalone) in place of the scene'\''s outputs; repeatable]:FILE:_files' '*--output[file to write (svg, pdf, png, tikz; tex with --standalone) in place of the scene'\''s outputs; repeatable]:FILE:_files' \
       '--size[pixels of the page, which keeps its width\: of png files, of the ground]:WxH: ' \
       '--width[millimetres of the drawing; texts and lines keep their size]:MM: ' \
       '--crop[only this part of the page, in pixels]:X0,Y0,X1,Y1: ' \

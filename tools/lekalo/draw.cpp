@@ -16,6 +16,7 @@
 #include "progress.h"
 #include "render/drawing/figure.h"
 #include "render/drawing/output/cairo_output.h"
+#include "render/drawing/output/dxf.h"
 #include "render/drawing/output/latex.h"
 #include "render/drawing/output/svg.h"
 #include "render/drawing/output/tikz.h"
@@ -75,7 +76,7 @@ void check_overwriting(const render::LoadedScene& scene, const std::vector<rende
 }
 
 void check_kind(const std::string& path, const DrawSettings& settings) {
-  if (!is_drawn(path)) throw UsageError(fmt::format("'{}': draw writes svg, pdf, png, tikz and tex", path));
+  if (!is_drawn(path)) throw UsageError(fmt::format("'{}': draw writes svg, pdf, png, dxf, tikz and tex", path));
   if (settings.latex && !takes_overlay(path) && !is_tikz(path))
     throw UsageError(fmt::format("'{}': --latex is for pdf and png files", path));
   if (path.ends_with(".tex") && !settings.standalone)
@@ -93,7 +94,9 @@ int draw(const Options& options) {
   }
   if (options.outputs.empty())
     for (const render::OutputFile& file : scene.model->outputs)
-      if (file.kind == "drawing" && !(options.settings.latex && file.path.ends_with(".svg"))) outputs.push_back(file);
+      if (file.kind == "drawing" &&
+          !(options.settings.latex && (file.path.ends_with(".svg") || file.path.ends_with(".dxf"))))
+        outputs.push_back(file);
   const bool lacks_overlay =
       options.settings.latex &&
       std::none_of(outputs.begin(), outputs.end(), [](const auto& file) { return takes_overlay(file.path); });
@@ -137,6 +140,13 @@ void write_tikz(const std::string& path, const render::Sheet& sheet, const DrawS
   render::write_file_atomically(path, drawing.text);
 }
 
+void write_dxf(const std::string& path, const render::Sheet& sheet, const DrawSettings& settings) {
+  const render::DxfDrawing drawing = render::dxf_of(sheet);
+  render::write_file_atomically(path, drawing.text);
+  if (settings.quiet) return;
+  for (const std::string& note : drawing.notes) fmt::print(stderr, "note: {}\n", note);
+}
+
 // What files of the same panel and width share.
 struct Drawn {
   std::string panel;
@@ -161,7 +171,8 @@ void print_statistics(const render::Figure& figure, double seconds) {
 
 bool is_drawn(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
-  return ending == ".svg" || ending == ".pdf" || ending == ".png" || ending == ".tikz" || ending == ".tex";
+  return ending == ".svg" || ending == ".pdf" || ending == ".png" || ending == ".dxf" || ending == ".tikz" ||
+         ending == ".tex";
 }
 
 void draw_files(const std::shared_ptr<const render::Model>& model, const std::vector<render::OutputFile>& outputs,
@@ -206,6 +217,8 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
       render::write_file_atomically(file.path, render::svg_of(sheet, {settings.outlines}));
     else if (is_tikz(file.path))
       write_tikz(file.path, sheet, settings);
+    else if (ending == ".dxf")
+      write_dxf(file.path, sheet, settings);
     else if (ending == ".pdf")
       render::write_file_atomically(file.path, render::pdf_of(sheet));
     else
@@ -219,8 +232,8 @@ void draw_files(const std::shared_ptr<const render::Model>& model, const std::ve
 }
 
 void add_draw(CLI::App& app, Action& action) {
-  auto* sub =
-      app.add_subcommand("draw", "Draw a scene as lines (SVG, PDF, PNG, TikZ), visible and hidden ones told apart");
+  auto* sub = app.add_subcommand(
+      "draw", "Draw a scene as lines (SVG, PDF, PNG, DXF, TikZ), visible and hidden ones told apart");
   sub->footer(
       "Examples:\n"
       "  lekalo draw ring.yaml -o ring.svg -o ring.pdf\n"
@@ -233,7 +246,7 @@ void add_draw(CLI::App& app, Action& action) {
   options->scene.add_to(*sub);
   sub->add_option(
          "-o,--output", options->outputs,
-         "file to write (svg, pdf, png, tikz; tex with --standalone) in place of the scene's outputs; repeatable")
+         "file to write (svg, pdf, png, dxf, tikz; tex with --standalone) in place of the scene's outputs; repeatable")
       ->type_name("FILE");
   sub->add_option("--size", options->size, "pixels of the page, which keeps its width: of png files, of the ground")
       ->type_name("WxH");

@@ -14,7 +14,7 @@ struct DrawSettings {
   int threads = 0;          // 0: all cores
 };
 
-// Whether drawings of this kind of file are made: svg, pdf, png, tikz, tex.
+// Whether drawings of this kind of file are made: svg, pdf, png, dxf, tikz, tex.
 bool is_drawn(const std::string& path);
 
 // Writes the drawing of the model; `outputs` all satisfy is_drawn(). Throws ImageError, and

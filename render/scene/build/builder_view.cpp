@@ -246,10 +246,11 @@ std::optional<OutputFile> Builder::build_output(const Value& value, const Counte
   }
   output.path = *name;
   const std::string ending = std::filesystem::path(*name).extension().string();
-  const bool is_png = ending == ".png", is_drawing = ending == ".pdf" || ending == ".svg" || ending == ".tikz";
+  const bool is_png = ending == ".png",
+             is_drawing = ending == ".pdf" || ending == ".svg" || ending == ".dxf" || ending == ".tikz";
   if (!is_png && !is_drawing && ending != ".exr") {
     diagnostics_.error(file->place, fmt::format("'{}' has an unknown ending", *name),
-                       "exr or png for pictures, pdf, svg or tikz for drawings");
+                       "exr or png for pictures, pdf, svg, dxf or tikz for drawings");
     return std::nullopt;
   }
   output.kind = is_drawing ? "drawing" : "render";
@@ -274,7 +275,7 @@ std::optional<OutputFile> Builder::build_output(const Value& value, const Counte
   for (const char* field : {"panel", "width"})
     if (fields->given(field) && output.kind != "drawing")
       diagnostics_.error(value.find(field)->place, fmt::format("'{}' is for drawings", field),
-                         is_png ? "add kind: drawing" : "pdf, svg and tikz files are drawings");
+                         is_png ? "add kind: drawing" : "pdf, svg, dxf and tikz files are drawings");
   if (fields->has("width")) output.width = fields->number("width");
   if (fields->has("panel")) {
     output.panel = fields->text("panel");

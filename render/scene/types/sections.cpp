@@ -62,7 +62,7 @@ std::vector<Field> image_fields() {
 std::vector<Field> output_fields() {
   using namespace geometry;
   return {
-      {"file", text(), "name; its ending decides: exr, png (pictures), pdf, svg, tikz (drawings)", true, {}},
+      {"file", text(), "name; its ending decides: exr, png (pictures), pdf, svg, dxf, tikz (drawings)", true, {}},
       {"kind", choice({"render", "drawing"}), "of a png: the picture or the drawing", false, "render"},
       {"exposure", number().between(-30, 30), "stops, for png", false, "0"},
       {"tone", choice({"none", "filmic", "agx", "pbr_neutral"}),
