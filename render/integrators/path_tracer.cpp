@@ -225,16 +225,19 @@ void PathTracer::add_lamps_along(const Ray& ray, double end, const Media& media)
   if (as_shadow && origin_.gone > 0) return;
   for (const size_t i : origin_.eye ? world_.backdrops() : world_.lamps_with_size()) {
     if (origin_.gathered && origin_.sharp && caustics_->of_lamp[i]) continue;  // photons have brought it
+    const bool through_all = !lamps[i]->casts_shadows() && !origin_.sharp;
+    const bool by_shadow_ray = as_shadow && lamps[i]->casts_shadows();
+    // Surroundings lie behind all that is met; to ask them is to wait for memory.
+    if (end < kInfinity && lamps[i]->is_backdrop() && !through_all && !by_shadow_ray) continue;
     const std::optional<LightSample> lamp = lamps[i]->towards(origin_.point, ray.direction);
     if (!lamp || lamp->irradiance.is_zero()) continue;
     const double weight = origin_.sharp ? 1 : power_heuristic(origin_.density, choice_at_origin(i) * lamp->density);
     Spectrum light = static_cast<float>(weight * lamp->density) * light_of(*lamps[i], lamp->irradiance, colors_);
     // Without shadows the light arrives through everything, but what is seen, itself or in a mirror, still lies before
     // or behind other things.
-    const bool here = lamps[i]->casts_shadows() || origin_.sharp
-                          ? lamp->distance > origin_.gone && lamp->distance <= origin_.gone + end
-                          : origin_.gone == 0;
-    if (as_shadow && lamps[i]->casts_shadows()) {
+    const bool here =
+        through_all ? origin_.gone == 0 : lamp->distance > origin_.gone && lamp->distance <= origin_.gone + end;
+    if (by_shadow_ray) {
       Ray shadow = ray;
       shadow.kind = RayKind::shadow;
       shadow.t_max = lamp->distance;
