@@ -186,7 +186,7 @@ image: { size: [60 mm, 40 mm] }
         self.assertIn("--latex", self.run_program("draw", "block.yaml", "--latex", "-o", "a.tikz", code=USAGE)[1])
         # Beside a PDF file whose texts LaTeX sets too.
         self.assertEqual(self.run_program("draw", "block.yaml", "--latex", "-o", "a.tikz", "-o", "a.pdf")[1], "a.tikz\na.pdf\na.tex\n")
-        self.assertIn("are written there", self.run_program("draw", "block.yaml", "--latex", "--standalone", "-o", "a.tex", "-o", "a.pdf",
+        self.assertIn("are written there", self.run_program("draw", "block.yaml", "--latex", "--standalone", "-o", "b.tex", "-o", "b.pdf",
                                                             code=USAGE)[1])
         self.assertIn("# %", self.run_program("draw", "block.yaml", "-o", "a#.tikz", code=USAGE)[1])
         self.write("mine.tex", "\\documentclass{article}")

@@ -14,6 +14,7 @@
 #include "engine.h"
 #include "picture.h"
 #include "progress.h"
+#include "render/cameras/kept_points.h"
 #include "render/drawing/figure.h"
 #include "render/drawing/output/cairo_output.h"
 #include "render/drawing/output/dxf.h"
@@ -85,6 +86,7 @@ void check_kind(const std::string& path, const DrawSettings& settings) {
 
 int draw(const Options& options) {
   options.engine.apply();
+  const render::KeptPoints kept;  // cameras of panels frame their objects as they are read
   const render::LoadedScene scene = options.scene.load();
   if (!options.settings.quiet) print_defaults(scene, false, true);
   std::vector<render::OutputFile> outputs;
