@@ -29,6 +29,8 @@
 #include "geometry/bodies/blends/spandrels.h"
 #include "geometry/queries/measures/mass_properties.h"
 #include "occt/occt_body.h"
+#include "occt/step_reader.h"
+#include "render/step/step_export.h"
 #include "support/tier.h"
 
 namespace lekalo::render::blends_test {
@@ -219,6 +221,20 @@ TEST(BlendsBesideOcct, Volumes) {
   std::cerr << fmt::format("{} models: {:.2f} s of processor time, OCCT {:.2f} s\n", models, beside.seconds,
                            beside.seconds_of_occt);
   EXPECT_EQ(beside.refused, 0);
+}
+
+// Its fillets are cut where one of their breaks is, but for rounding: a piece between the two was a knot span that OCCT
+// does not take.
+TEST(BlendsBesideOcct, ARoundedLoftKeepsItsFaces) {
+  const BlendModel model = geometry::BlendModels(9210).model(210);
+  const auto body = std::make_shared<const geometry::Body>(geometry::blended(model.body, model.requests()));
+  for (const geometry::Face& face : body->faces)
+    for (const geometry::SurfacePiece& piece : face.surface->pieces())
+      EXPECT_GT(piece.domain.u.width(), 1e-9 * face.surface->domain().u.width()) << face.origin.text();
+  const TopoDS_Shape shape = tests::read_step(step_file({{"b", body, {}, {}}}, "b", "mm", 1e-9).text);
+  int faces = 0;
+  for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next()) ++faces;
+  EXPECT_EQ(faces, static_cast<int>(body->faces.size()));
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ namespace lekalo::geometry {
 
 namespace {
 
+constexpr double kSliver = 1e-12;  // of a domain: breaks that are nearer are one
+
 const Coedge& coedge_on(const Body& body, const BlendEdge& edge, int side) {
   for (const int c : body.edges[edge.edge].coedges)
     if (body.coedges[c].forward == (side == 1)) return body.coedges[c];
@@ -196,8 +198,10 @@ void BlendBand::make_fitted(const Contacts& contacts, const BlendRule& rule) {
       if (along.width() < properties.domain.u.width() * (1 - 1e-12)) part.periods.u = 0;
       part.domain.u = along;
       part.breaks_u = {along.lo};
+      // A break as near to an end as rounding puts it is the end: no piece is a sliver.
+      const double least = kSliver * properties.domain.u.width();
       for (const double t : properties.breaks_u)
-        if (t > along.lo && t < along.hi) part.breaks_u.push_back(t);
+        if (t > along.lo + least && t < along.hi - least) part.breaks_u.push_back(t);
       part.breaks_u.push_back(along.hi);
       return std::make_shared<ComposedSurface<decltype(sections)>>(sections, part);
     };
