@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "geometry/composition.h"
-#include "geometry/curves/analytic/circle.h"
+#include "geometry/curves/analytic/ellipse.h"
 #include "geometry/curves/operations/curve_part.h"
 #include "geometry/curves/operations/nurbs_of.h"
 #include "geometry/curves/splines/nurbs_curve.h"
@@ -254,20 +254,13 @@ std::optional<StepGeometry::SurfaceEntity> StepGeometry::elementary(const Surfac
 }
 
 std::optional<StepGeometry::SurfaceEntity> StepGeometry::extruded(const SurfacePtr& surface) {
-  const auto entity = [&](const CurvePtr& section, const Vec3& along) {
-    const std::string curve_name = curve(*section), direction = writer_.direction(glm::normalize(along)),
-                      vector =
-                          writer_.shared(fmt::format("VECTOR('',{},{})", direction, step_real(glm::length(along))));
-    return SurfaceEntity{writer_.add(fmt::format("SURFACE_OF_LINEAR_EXTRUSION('',{},{})", curve_name, vector)), true};
-  };
-  if (const auto [extrusion, map] = placed<ExtrusionSurface>(*surface); extrusion)
-    return entity(transformed(over(extrusion->curve(), extrusion->domain().u), map), map.direction(extrusion->along()));
-  // Elliptic cylinders.
-  const auto known = canonical(surface);
-  if (!known || known->kind != CanonicalSurface::Kind::cone || known->widening != 0) return std::nullopt;
-  const Affine to_world{glm::inverse(known->to_local), known->origin};
-  const auto circle = std::make_shared<Circle>(Frame(), known->radius, surface->domain().u);
-  return entity(transformed(circle, to_world), known->height * to_world.linear[2]);
+  const auto [extrusion, map] = placed<ExtrusionSurface>(*surface);
+  if (!extrusion) return std::nullopt;
+  const Vec3 along = map.direction(extrusion->along());
+  const std::string section = curve(*transformed(over(extrusion->curve(), extrusion->domain().u), map)),
+                    direction = writer_.direction(glm::normalize(along)),
+                    vector = writer_.shared(fmt::format("VECTOR('',{},{})", direction, step_real(glm::length(along))));
+  return SurfaceEntity{writer_.add(fmt::format("SURFACE_OF_LINEAR_EXTRUSION('',{},{})", section, vector)), true};
 }
 
 std::optional<StepGeometry::SurfaceEntity> StepGeometry::revolved(const SurfacePtr& surface) {

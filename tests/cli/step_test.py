@@ -51,7 +51,7 @@ lekalo: 1
 geometry:
   leaning: { type: extrusion_surface, of: { type: circle, radius: 1 }, along: [1, 0, 2] }
   oval: { type: extrusion_surface, of: { type: ellipse, semi_axes: [2, 1] }, along: [0, 0, 2] }
-  scaled: { type: cylinder_surface, radius: 1, height: 2, transform: { scale: [1, 2, 1] } }
+  mirrored: { type: extrusion_surface, of: { type: circle, radius: 1 }, along: [0, 0, 2], transform: [{ scale: [1, 2, 1] }, { mirror: x }] }
   wall: { type: extrusion_surface, of: { type: bezier_curve, points: [[0, 0, 0], [1, 2, 0], [2, 0, 0]] }, along: [0, 0, 2] }
   apple: { type: revolution_surface, of: { type: circle, radius: 2, center: [1, 0, 0], axis: y, arc: [-30, 30] } }
   vase: { type: revolution_surface, of: { type: bezier_curve, points: [[1, 0, 0], [2, 0, 1], [1, 0, 2]] } }
@@ -111,7 +111,7 @@ class Step(ProgramTest):
         for name, surface, section in (
             ("leaning", "SURFACE_OF_LINEAR_EXTRUSION", "CIRCLE"),
             ("oval", "SURFACE_OF_LINEAR_EXTRUSION", "ELLIPSE"),
-            ("scaled", "SURFACE_OF_LINEAR_EXTRUSION", "ELLIPSE"),
+            ("mirrored", "SURFACE_OF_LINEAR_EXTRUSION", "ELLIPSE"),
             ("wall", "SURFACE_OF_LINEAR_EXTRUSION", "B_SPLINE_CURVE_WITH_KNOTS"),
             ("apple", "SURFACE_OF_REVOLUTION", "CIRCLE"),
             ("vase", "SURFACE_OF_REVOLUTION", "B_SPLINE_CURVE_WITH_KNOTS"),

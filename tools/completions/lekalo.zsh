@@ -225,7 +225,7 @@ case $command in
       ':scene:_files -g "*.(yaml|yml|json)"' \
       '*--set[value of a parameter, e.g. --set w=4; repeatable]:NAME=VALUE: ' \
       '--allow-external[let the scene run code from outside the program\: libraries and commands that it names]' \
-      '*-o[file to write (svg, pdf, png, dxf, tikz; tex with --standalone) in place of the scene'\''s outputs; repeatable]:FILE:_files' '*--output[file to write (svg, pdf, png, tikz; tex with --standalone) in place of the scene'\''s outputs; repeatable]:FILE:_files' \
+      '*-o[file to write (svg, pdf, png, dxf, tikz; tex with --standalone) in place of the scene'\''s outputs; repeatable]:FILE:_files' '*--output[file to write (svg, pdf, png, dxf, tikz; tex with --standalone) in place of the scene'\''s outputs; repeatable]:FILE:_files' \
       '--size[pixels of the page, which keeps its width\: of png files, of the ground]:WxH: ' \
       '--width[millimetres of the drawing; texts and lines keep their size]:MM: ' \
       '--crop[only this part of the page, in pixels]:X0,Y0,X1,Y1: ' \
