@@ -110,6 +110,37 @@ image: {{ size: [100 mm, 100 mm] }}
             self.assertEqual(sum(abs(abs(self.to_graph(path[k])[1]) - 5) < 0.5 for path in paths for k in (0, -1)),
                              2 * (count - 1), formula)
 
+    def test_waves_are_no_common_part(self):
+        """Crossings at even steps, where a common part is asked for: 24 half waves over the axis and over its way back."""
+        self.write("waves.yaml", """lekalo: 1
+geometry:
+  wave: { type: formula_curve, y: 'sin(24*pi*x)', domain: [0, 1] }
+  axis: { type: segment, from: [0, 0], to: [1, 0] }
+  both: { type: composite_curve, of: [axis, { type: formula_curve, point: ['1 - t', 'sin(24*pi*t)', 0], domain: [0, 1] }] }
+""")
+        found = self.json_of("measure", "waves.yaml", "wave", "--intersect", "axis")
+        self.assertEqual(found["common"], [])
+        self.assertEqual(len(found["points"]), 25)
+        for k, point in enumerate(found["points"]):
+            self.assertAlmostEqual(point["t"], k / 24, delta=1e-12)
+        self.assertEqual(self.json_of("measure", "waves.yaml", "both", "--self-intersection")["common"], [])
+
+    def test_distance_of_a_curve_on_a_surface(self):
+        """A contour lies on its surface all along: that is the only minimum, at a pinch point too."""
+        self.write("on.yaml", """lekalo: 1
+geometry:
+  umbrella: { type: formula_surface, point: [u*v, u, v^2], domain: { u: [-1, 1], v: [-1, 1] } }
+  own: { type: self_intersection_curve, of: umbrella }
+  ball: { type: sphere_surface, radius: 2 }
+  pipe: { type: cylinder_surface, frame: { origin: [1, 0, -2.6] }, radius: 1, height: 5.2 }
+  window: { type: intersection_curve, of: [ball, pipe] }
+""")
+        for surface, curve in (("umbrella", "own"), ("ball", "window"), ("pipe", "window")):
+            for one, other in ((surface, curve), (curve, surface)):
+                found = self.json_of("measure", "on.yaml", one, "--to", other)
+                self.assertEqual((found["distance"], len(found["minima"])), (0, 1), curve)
+                self.assertFalse(found["minima"][0]["isolated"])
+
     def test_evaluate_says_where_there_is_no_number(self):
         """The value is there, the derivatives of a root at zero are not."""
         self.write("root.yaml", """lekalo: 1

@@ -44,6 +44,11 @@ class DistanceQuery {
   }
 
   Distance run() {
+    found_ = minima_of_curve_on_patches(a_, b_, size_);
+    if (!found_.empty()) {
+      seen_.distance = found_.front().minimum.distance;
+      return result();
+    }
     const auto has_patches = [](const DistanceElements& list) {
       return std::any_of(list.begin(), list.end(), [](const auto& element) { return element->dimension == 2; });
     };

@@ -51,9 +51,10 @@ struct Distance {
 };
 
 // All local minima, or those that are as near as the nearest (which takes less time). Two surfaces or bodies that meet
-// have one minimum, a place where they do: it is the only one listed. A body is its surface: a thing in its inside has
-// a distance from it. Of unbounded surfaces planes, cylinders and cones have distances from what is bounded, and whole
-// planes and circular cylinders from each other: throws std::invalid_argument for others.
+// have one minimum, a place where they do: it is the only one listed; so has a curve that lies on curved surfaces. A
+// body is its surface: a thing in its inside has a distance from it. Of unbounded surfaces planes, cylinders and cones
+// have distances from what is bounded, and whole planes and circular cylinders from each other: throws
+// std::invalid_argument for others.
 enum class DistanceMinima { all, nearest };
 Distance distance(const Distant& a, const Distant& b, DistanceMinima wanted = DistanceMinima::all);
 

@@ -2,25 +2,72 @@
 
 #include <algorithm>
 
+#include "geometry/curves/operations/uneven_places.h"
+
 namespace lekalo::geometry {
 
 namespace {
 
+DistanceElement element_of(const Vec3& point) {
+  DistanceElement element;
+  element.place.point = point;
+  return element;
+}
+
 // The parameters of a point on an element, if it lies on it.
-std::optional<ElementPlace> place_on(const DistanceElement& element, const Vec3& point, double size) {
-  DistanceElement of_point;
-  of_point.place.point = point;
+std::optional<ElementPlace> place_on(const DistanceElement& element, const Vec3& point, double size,
+                                     double within = kOnePlace) {
+  const DistanceElement of_point = element_of(point);
   const auto from = [&](auto start) -> std::optional<ElementPlace> {
     constexpr int n = std::tuple_size_v<decltype(start)>;
     const DistanceSystem<n> system({&of_point, &element});
     for (const auto& place : starts<n>(system.domain(), 4)) {
       const auto end = descended<n>(system, system.domain(), place);
-      if (glm::length(system.way(end)) <= kOnePlace * size) return system.of_b(end);
+      if (glm::length(system.way(end)) <= within * size) return system.of_b(end);
     }
     return std::nullopt;
   };
   return element.dimension == 1 ? from(ParameterPoint<1>{}) : from(ParameterPoint<2>{});
 }
+
+// Of a point that moves along curved patches. It stays on the sheet on which it was, where several meet.
+class PlaceOnPatches {
+ public:
+  PlaceOnPatches(const DistanceElements& elements, double size) : size_(size) {
+    for (const auto& element : elements)
+      if (element->dimension == 2 && !element->flat) patches_.push_back(element.get());
+  }
+
+  // False where the point is on none.
+  bool move_to(const Vec3& point) {
+    if (patch_ && follow(point)) return true;
+    for (const DistanceElement* patch : patches_) {
+      if (!patch->box.inflated(kIntersection * size_).contains(point)) continue;
+      const auto found = place_on(*patch, point, size_, kIntersection);
+      if (!found || !patch->keeps(*found)) continue;
+      patch_ = patch, place_ = *found;
+      return true;
+    }
+    return false;
+  }
+  const DistanceElement& patch() const { return *patch_; }
+  const ElementPlace& place() const { return place_; }
+
+ private:
+  bool follow(const Vec3& point) {
+    const DistanceElement of_point = element_of(point);
+    const DistanceSystem<2> system({&of_point, patch_});
+    const ParameterPoint<2> end = descended<2>(system, system.domain(), {place_[0], place_[1]});
+    if (!(glm::length(system.way(end)) <= kIntersection * size_) || !system.keeps(end)) return false;
+    place_ = system.of_b(end);
+    return true;
+  }
+
+  double size_;
+  std::vector<const DistanceElement*> patches_;
+  const DistanceElement* patch_ = nullptr;
+  ElementPlace place_{};
+};
 
 // Its parameters are those of its place.
 bool has_own(const DistanceElement& element) { return !element.held_u && !element.held_v; }
@@ -134,6 +181,39 @@ void merge_minima_of_parallels(std::vector<ElementPair> flats, double size, std:
     found.insert(found.end(), families.begin(), families.end());
   }
   std::erase_if(found, [](const FoundMinimum& one) { return one.absorbed; });
+}
+
+std::vector<FoundMinimum> minima_of_curve_on_patches(const DistanceElements& a, const DistanceElements& b,
+                                                     double size) {
+  const auto is_curve = [](const DistanceElements& elements) {
+    return std::any_of(elements.begin(), elements.end(), [](const auto& element) {
+      return element->place.kind == DistancePlace::Kind::curve && element->dimension == 1;
+    });
+  };
+  const bool from_a = is_curve(a);
+  if (!from_a && !is_curve(b)) return {};
+  PlaceOnPatches foot_point(from_a ? b : a, size);
+  std::vector<FoundMinimum> found;
+  for (const auto& line : from_a ? a : b) {
+    if (line->dimension != 1) continue;
+    for (int i = 0; i <= kPlacesOfCommonPart; ++i) {
+      const ElementPlace at{line->domain[0].lo + line->domain[0].width() * share_of_place(i)};
+      if (!foot_point.move_to(line->at(at))) return {};
+      const DistanceElement& patch = foot_point.patch();
+      const ElementPair pair = from_a ? ElementPair{line.get(), &patch} : ElementPair{&patch, line.get()};
+      const ElementPlace &at_a = from_a ? at : foot_point.place(), &at_b = from_a ? foot_point.place() : at;
+      const auto known = std::find_if(found.begin(), found.end(), [&](const FoundMinimum& one) {
+        return (from_a ? one.b : one.a)->place.index == patch.place.index;
+      });
+      if (known == found.end()) {
+        found.push_back({minimum_at(pair, at_a, at_b), pair.a, pair.b, false, true});
+        found.back().minimum.isolated = false;
+      } else {
+        widen(*known, at_a, at_b);
+      }
+    }
+  }
+  return found;
 }
 
 void join_non_isolated_minima(double size, std::vector<FoundMinimum>& found) {

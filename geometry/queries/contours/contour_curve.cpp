@@ -341,6 +341,16 @@ typename ContourSolution<N>::Ranges ContourSolution<N>::over_segment(const Conto
 }
 
 template <int N>
+const std::vector<typename ContourSolution<N>::Ranges>& ContourSolution<N>::over_whole_segments(int order) const {
+  const size_t second = order >= 2 ? 1 : 0;
+  std::call_once(asked_[second], [&] {
+    for (const ContourSegment<N>& segment : segments_)
+      over_whole_segments_[second].push_back(over_segment(segment, segment.t, order));
+  });
+  return over_whole_segments_[second];
+}
+
+template <int N>
 typename ContourSolution<N>::Ranges ContourSolution<N>::over(const Interval& t, int order) const {
   Ranges all;
   bool first = true;
@@ -349,7 +359,8 @@ typename ContourSolution<N>::Ranges ContourSolution<N>::over(const Interval& t, 
     // At a joint only one side counts: that which the interval reaches into, at a single place that to the right.
     if (part.empty() || (part.width() == 0 && t.width() > 0)) continue;
     if (t.width() == 0 && &segment != &segment_at(t.lo)) continue;
-    const Ranges one = over_segment(segment, part, order);
+    const Ranges one = part == segment.t ? over_whole_segments(order)[static_cast<size_t>(&segment - segments_.data())]
+                                         : over_segment(segment, part, order);
     if (first) {
       all = one, first = false;
       continue;

@@ -6,7 +6,9 @@
 // series gives the derivatives, their intervals the enclosures.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "geometry/contour.h"
@@ -63,9 +65,13 @@ class ContourSolution {
   const ContourSegment<N>& segment_at(double t) const;
   ParameterPoint<N> solve(const ContourSegment<N>& segment, double t) const;
   Ranges over_segment(const ContourSegment<N>& segment, const Interval& t, int order) const;
+  const std::vector<Ranges>& over_whole_segments(int order) const;
 
   std::vector<ContourSegment<N>> segments_;
   bool closed_ = false;
+  // Of whole segments, which searches ask for again and again; without and with second derivatives.
+  mutable std::array<std::once_flag, 2> asked_;
+  mutable std::array<std::vector<Ranges>, 2> over_whole_segments_;
 };
 
 // In space.

@@ -145,12 +145,12 @@ class CurvePair {
       // Along the second curve step by step, across its seam.
       const double turn = b_.period() > 0 ? b_.period() : b_.domain().width();
       double t = place_on_b(a_.point(part.lo)).value_or(0);
-      const double first = *place_on_b(a_.point(part.lo + part.width() / kPlacesOfCommonPart));
+      const double first = *place_on_b(a_.point(part.lo + part.width() * share_of_place(1)));
       // An end on the seam is on that side of it where the part goes.
       if (b_.is_closed() && std::abs(first - t) > 0.5 * turn) t += first > t ? turn : -turn;
       common.begin = t;
       for (int i = 1; i <= kPlacesOfCommonPart; ++i) {
-        double next = place_on_b(a_.point(part.lo + part.width() * i / kPlacesOfCommonPart)).value_or(t);
+        double next = place_on_b(a_.point(part.lo + part.width() * share_of_place(i))).value_or(t);
         if (b_.is_closed()) next += turn * std::round((t - next) / turn);
         t = next;
       }

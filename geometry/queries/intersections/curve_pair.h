@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/curves/operations/smooth_pieces.h"
+#include "geometry/curves/operations/uneven_places.h"
 #include "geometry/numerics/root_search.h"
 #include "geometry/tolerances.h"
 
@@ -15,8 +16,6 @@ namespace lekalo::geometry {
 // Tangents at a smaller angle (its sine) are parallel: at a contact they are known to about the square root of the
 // tolerance.
 inline constexpr double kParallel = 1e-3;
-// Places along a part at which it must lie on the other curve or surface to be common.
-inline constexpr int kPlacesOfCommonPart = 24;
 inline constexpr int kMaxSteps = 30;
 // Of open boxes, in least sides: larger ones hold no contact but a common part.
 inline constexpr double kLargestContact = 256;
@@ -194,7 +193,7 @@ std::vector<Interval> common_parts(std::vector<double> places, double least, Lie
     // The middle first: most parts are told by it.
     bool common = lies_on(part.middle());
     for (int i = 1; common && i < kPlacesOfCommonPart; ++i)
-      common = lies_on(part.lo + part.width() * i / kPlacesOfCommonPart);
+      common = lies_on(part.lo + part.width() * share_of_place(i));
     if (!common) continue;
     if (!parts.empty() && part.lo - parts.back().hi <= least)
       parts.back().hi = part.hi;

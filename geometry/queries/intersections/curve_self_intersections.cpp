@@ -210,7 +210,7 @@ class SelfIntersections {
     for (const bool forwards : {false, true}) {
       double at = t;
       for (int i = 1; 2 * i <= kPlacesOfCommonPart; ++i) {
-        const double share = static_cast<double>(i) / kPlacesOfCommonPart;
+        const double share = 0.5 * share_of_place(2 * i);
         const double s = part.middle() + (forwards ? share : -share) * part.width();
         double next = kInfinity;
         for (const CurveFootPoint& foot_point : projector_.foot_points(curve_.point(s), tolerance_).foot_points) {
