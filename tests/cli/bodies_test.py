@@ -5,7 +5,7 @@ import math
 import random
 import unittest
 
-from program import ProgramTest
+from program import SCENE_ERROR, ProgramTest
 
 PATH = "{ type: bezier_curve, points: [[0, 0, 0], [0, 0, 4], [4, 0, 4], [5, 5, 5]] }"
 ROUND = "{ type: rectangle, size: [2, 1], corner_radius: 0.2 }"
@@ -74,6 +74,23 @@ class Bodies(ProgramTest):
                         sides.update(zip(corners, corners[1:] + corners[:1]))
                 self.assertGreater(len(sides), 0)
                 self.assertTrue(all(count == 1 and (b, a) in sides for (a, b), count in sides.items()))
+
+    def test_tessellations(self):
+        """Meshes of the scene: of bodies closed, of a box its twelve triangles; of a ball one that holds a smaller ball."""
+        meshes = "".join(f"  mesh_of_{name}: {{ type: tessellation, of: {name} }}\n" for name in BODIES)
+        self.write("meshes.yaml", SCENE + meshes + """
+  cuboid: { type: tessellation, of: { type: box, size: [1, 2, 3] } }
+  globe: { type: tessellation, of: { type: ball, radius: 1 }, sag: 0.02, angle: 90 }
+""")
+        for name in BODIES:
+            with self.subTest(name):
+                self.assertTrue(self.json_of("measure", "meshes.yaml", f"mesh_of_{name}")["closed"])
+        cuboid = self.json_of("measure", "meshes.yaml", "cuboid")
+        self.assertEqual((cuboid["area"], cuboid["volume"]), (22, 6))
+        share = self.json_of("measure", "meshes.yaml", "globe")["volume"] / (4 * math.pi / 3)
+        self.assertTrue((1 - 0.02)**3 <= share < 1, share)
+        self.write("plane.yaml", "lekalo: 1\ngeometry: { m: { type: tessellation, of: { type: plane } } }\n")
+        self.assertIn("plane.yaml:2:", self.run_program("check", "plane.yaml", code=SCENE_ERROR)[1])
 
     def test_rays_meet_them_evenly(self):
         random.seed(7)

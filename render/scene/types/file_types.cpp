@@ -9,6 +9,7 @@
   X(patches_type)            \
   X(mesh_type)               \
   X(triangulation_type)      \
+  X(tessellation_type)       \
   X(frame_net_type)          \
   X(model_type)              \
   X(control_triangles_type)  \
@@ -42,6 +43,7 @@ TypeDeclaration patches_type() {
 
 TypeDeclaration mesh_type();
 TypeDeclaration triangulation_type();
+TypeDeclaration tessellation_type();
 TypeDeclaration frame_net_type();
 TypeDeclaration model_type();
 
