@@ -104,6 +104,21 @@ class Constraints(ProgramTest):
             self.write(scene, (self.folder / scene).read_text() + "parameters: {rr: 3, q_y: 1}\n")
             self.assertIn(message, self.run_program("solve", scene, code=SCENE_ERROR)[1])
 
+    def test_to_use_what_is_not_found_is_no_mistake_of_its_own(self):
+        unknowns = ("  points: [{name: p, at: [0, 0]}, {name: q, at: [1, 0.3]}]\n  bodies: {name: arm}\n"
+                    "  variables: {name: rr, start: 1}\n  on_curves: {name: c, of: {type: circle, radius: 1}, t: 0}\n")
+        for condition, message in (("type: equation, is: 'rr^2 = -1'", "contradict each other"),
+                                   ("type: fixed, of: s", "no point 's'"), ("type: tangent, of: p", "'tangent'")):
+            scene = self.scene([f"{{{condition}}}"], unknowns)
+            self.write(scene, (self.folder / scene).read_text() + "geometry:\n  a: {type: polyline, points: [p, q, c]}\n"
+                       "  b: {type: circle, radius: rr/4, transform: {pose: arm}}\n")
+            said = self.run_program("check", scene, code=SCENE_ERROR)[1]
+            self.assertIn(message, said)
+            self.assertEqual(said.count("scene.yaml:"), 1, said)
+        # Another mistake is told in the same run.
+        self.write(scene, (self.folder / scene).read_text() + "  d: {type: circle, radius: s}\n")
+        self.assertEqual(self.run_program("check", scene, code=SCENE_ERROR)[1].count("scene.yaml:"), 2)
+
     def test_a_field_of_another_condition_is_refused(self):
         points = "  points: [{name: p, at: [0, 0]}, {name: q, at: [1, 0.3]}]\n"
         for condition, message in (("type: horizontal, between: [p, q], value: 2", "'horizontal' takes no 'value'"),

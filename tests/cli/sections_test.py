@@ -99,6 +99,26 @@ image: {{ size: [80 mm, auto] }}
         tool = "{ type: cylinder_body, radius: 0.3, axis: { through: [0.5, 0, 0], along: z }, heights: [-1, 5] }"
         self.assertEqual(axes(f"cut_away: {tool}"), {"40"})
 
+    def test_center_lines_are_as_long_as_what_is_left(self):
+        """A tool that passes through a low plate beside a high wall."""
+        self.write("s.yaml", """lekalo: 1
+geometry:
+  plate: { type: box, size: [4, 4, 1] }
+  wall: { type: box, size: [1, 4, 4], corner: [3, 0, 0] }
+  tool: { type: cylinder_body, radius: 0.5, center: [1.5, 2, -1], height: 6 }
+  part: { type: difference, of: { type: union, of: [plate, wall] }, minus: tool }
+drawing: { center_lines: true }
+info: { unit: mm }
+panels: { a: { camera: { view: front } } }
+layout: { rows: [[a]], scale: 10 }
+image: { size: [80 mm, auto] }
+""")
+        self.run_program("draw", "s.yaml", "-o", "s.svg")
+        svg = (self.folder / "s.svg").read_text()
+        pieces = re.findall(r'd="M35 ([\d.]+) L35 ([\d.]+)" [^>]*stroke-dasharray', svg)
+        heights = [float(y) for piece in pieces for y in piece]
+        self.assert_near(max(heights) - min(heights), 10 + 2 * 3, 1e-3)  # 10 mm to a unit, and 3 mm beyond at each end
+
     def test_families_and_groups_are_cut_as_one(self):
         listed = "[{ type: ball, radius: 1 }, { type: ball, center: [3, 0, 0], radius: 1 }, { type: ball, center: [6, 0, 0], radius: 1 }]"
         for shape in listed, "{ type: group, of: [{ shape: %s }] }" % listed:

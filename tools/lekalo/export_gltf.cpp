@@ -237,7 +237,8 @@ int export_gltf(const ExportOptions& options, const std::string& format, const s
                                         : format == "glb" ? render::glb_bytes(scene)
                                                           : page_of(scene));
   if (!options.quiet)
-    fmt::print(stderr, "{}: {} nodes, {} materials\n", output, scene.nodes.size(), scene.materials.size());
+    fmt::print(stderr, "{}: {} node{}, {} material{}\n", output, scene.nodes.size(), scene.nodes.size() == 1 ? "" : "s",
+               scene.materials.size(), scene.materials.size() == 1 ? "" : "s");
   return kDone;
 }
 

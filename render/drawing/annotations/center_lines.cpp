@@ -5,7 +5,10 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 
+#include "geometry/bodies/booleans/boolean.h"
+#include "geometry/bodies/booleans/solid_boundary.h"
 #include "geometry/bodies/topology/landmarks.h"
 #include "geometry/box_corners.h"
 #include "geometry/curves/analytic/circle.h"
@@ -92,7 +95,7 @@ void add_faces(const Body& body, std::vector<RoundFace>& faces) {
     if (const auto face = round_face(body.faces[k].surface, points_of_border(body, k))) faces.push_back(*face);
 }
 
-// Of a solid and what it is put together of.
+// Of a solid: of its boundary, or of what it is put together of.
 void add_faces(const ShapePtr& shape, const Affine& to_world, std::vector<RoundFace>& faces) {
   const auto* moved = dynamic_cast<const TransformedShape*>(shape.get());
   const Shape* original = moved ? moved->original().get() : shape.get();
@@ -101,6 +104,12 @@ void add_faces(const ShapePtr& shape, const Affine& to_world, std::vector<RoundF
     add_faces(transformed(*solid->body(), placed), faces);
   const auto* solid = dynamic_cast<const Csg*>(original);
   if (!solid) return;
+  try {
+    if (has_boundary(*solid))
+      return add_faces(transformed(*boundary_of(moved ? moved->original() : shape), placed), faces);
+  } catch (const BooleanError&) {  // of what cannot be made the operands
+  } catch (const std::invalid_argument&) {
+  }
   for (const CsgLeaf& leaf : csg_leaves(*solid))
     if (leaf.body) add_faces(transformed(*leaf.body, placed), faces);
 }
@@ -129,7 +138,7 @@ void add_faces(const Object& object, const Affine& to_world, std::vector<RoundFa
   const Affine from_world = to_world.inverse();
   std::vector<RoundFace> found;
   add_faces(cut ? cut->operands().front() : *shape, to_world, found);
-  // Tools are longer than what they cut.
+  // Without a boundary tools are longer than what they cut.
   for (RoundFace& face : found) {
     Interval inside(kInfinity, -kInfinity);
     for (const Vec3& corner : corners(box))

@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include "geometry/constraints/conditions.h"
 #include "geometry/expression/nearest_name.h"
@@ -485,13 +487,37 @@ class ConstraintReading {
   bool failed_ = false;
 };
 
+namespace {
+
+// The names alone: to use what was not found is no mistake of its own.
+ConstraintReport unsolved(const Value& section) {
+  const auto each_name = [&](const char* field, const auto& add) {
+    const Value* list = section.find(field);
+    if (!list) return;
+    for (const Value& item : list->is_sequence() ? std::span(list->items) : std::span(list, 1))
+      if (const Value* name = item.is_map() ? item.find("name") : nullptr; name && name->is_scalar()) add(name->text);
+  };
+  ConstraintReport report;
+  const auto add_point = [&](const std::string& name) { report.points[name] = Vec3(0); };
+  each_name("points", add_point);
+  each_name("on_curves", add_point);
+  each_name("variables", [&](const std::string& name) {
+    if (Parameters::may_be_called(name)) report.variables[name] = std::numeric_limits<double>::quiet_NaN();
+  });
+  each_name("bodies", [&](const std::string& name) { report.poses[name] = Affine(); });
+  return report;
+}
+
+}  // namespace
+
 void Builder::solve_constraints() {
   const Value* given = section("constraints");
   if (!given || !given->is_map()) return;
   const auto fields = read_fields(section_declaration("constraints").fields, *given, {}, "'constraints'");
-  if (!fields) return;
-  auto found = ConstraintReading(*given, *fields, diagnostics_, parameters_).solve();
-  if (!found) return;
+  auto found = fields ? ConstraintReading(*given, *fields, diagnostics_, parameters_).solve() : std::nullopt;
+  using State = NamedThing::Member::State;
+  const State state = found ? State::unknown : State::wrong;
+  if (!found) found = unsolved(*given);
   const Value* written = section("geometry");
   if (written && !written->is_map()) return;
   Value with_points = written ? *written : default_value("{}");
@@ -513,7 +539,7 @@ void Builder::solve_constraints() {
     if (geometry.contains(entry.key.name)) continue;
     NamedThing& thing = geometry[entry.key.name];
     thing.entry = &entry;
-    thing.members.push_back({"", {&entry.value, {}}, NamedThing::Member::State::unknown, {}, {}});
+    thing.members.push_back({"", {&entry.value, {}}, state, {}, {}});
     thing.used = true;
   }
   for (const auto& [name, value] : found->variables) parameters_.define(name, value);
