@@ -96,6 +96,7 @@ class Pictures(ProgramTest):
         self.render(*samples, "-o", "whole.exr")
         wait = 0.6 * (time.perf_counter() - begin)
         for _ in range(6):
+            (self.folder / "part.exr").unlink(missing_ok=True)  # a whole one would stay
             process = subprocess.Popen([LEKALO, "render", "scene.yaml", *samples, "-o", "part.exr"], cwd=self.folder,
                                        stderr=subprocess.PIPE, text=True)
             time.sleep(wait)

@@ -54,7 +54,7 @@ case $command in
       '--progress[progress as lines for other programs]' \
       '--shutter[motion blur\: the mean of N pictures while a parameter runs from A to B, the samples shared among them]:NAME=A..B\:N: ' \
       '--watch[again when the scene or a file that it reads changes, until Ctrl-C]' \
-      '*--resume[continue from a .partial file]:FILE:_files' \
+      '--resume[go on from a .partial file; without FILE from that of the picture, if there is one]:FILE:_files' \
       '--stamp[put date, machine and the scene'\''s path into the pictures]' \
       '--quiet[no progress, no notes]' \
       '--stats[print times, counts and memory]' ;;
@@ -80,7 +80,7 @@ case $command in
       '--progress[progress as lines for other programs]' \
       '--shutter[motion blur\: the mean of N pictures while a parameter runs from A to B, the samples shared among them]:NAME=A..B\:N: ' \
       '--watch[again when the scene or a file that it reads changes, until Ctrl-C]' \
-      '*--resume[continue from a .partial file]:FILE:_files' \
+      '--resume[go on from a .partial file; without FILE from that of the picture, if there is one]:FILE:_files' \
       '--stamp[put date, machine and the scene'\''s path into the pictures]' \
       '--quiet[no progress, no notes]' \
       '--stats[print times, counts and memory]' \
