@@ -12,6 +12,8 @@ namespace lekalo::command {
 
 namespace {
 
+constexpr double kForetells = 0.01;  // the part that says how long the rest will take: what has hardly begun does not
+
 std::string duration(double seconds) {
   const int s = static_cast<int>(std::ceil(seconds));
   return s < 60     ? fmt::format("{} s", s)
@@ -45,9 +47,8 @@ void Progress::show(double done, const std::string& speed) {
   }
   if (since < (terminal_ ? 0.2 : 10.0)) return;
   last_ = now;
-  const double left = done > 0 ? elapsed * (1 - done) / done : 0;
-  fmt::print(stderr, "{}{:3.0f}%{}  {} left{}", terminal_ ? "\r" : "", 100 * done, speed, duration(left),
-             terminal_ ? "   " : "\n");
+  const std::string left = done < kForetells ? "" : fmt::format("  {} left", duration(elapsed * (1 - done) / done));
+  fmt::print(stderr, "{}{:3.0f}%{}{}{}", terminal_ ? "\r" : "", 100 * done, speed, left, terminal_ ? "   " : "\n");
   std::fflush(stderr);
   shown_ = true;
 }
