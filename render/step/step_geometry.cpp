@@ -114,10 +114,6 @@ std::optional<CanonicalConic> ellipse_of(const Curve& curve, const NurbsOfCurve&
   return conic && conic->kind == CanonicalConic::Kind::ellipse ? conic : std::nullopt;
 }
 
-CurvePtr over(const CurvePtr& curve, const Interval& part) {
-  return part == curve->domain() ? curve : std::make_shared<CurvePart>(curve, part);
-}
-
 bool keeps_angles(const Mat3& map) {
   const Mat3 square = glm::transpose(map) * map;
   for (int k = 0; k < 3; ++k)
@@ -257,7 +253,7 @@ std::optional<StepGeometry::SurfaceEntity> StepGeometry::extruded(const SurfaceP
   const auto [extrusion, map] = placed<ExtrusionSurface>(*surface);
   if (!extrusion) return std::nullopt;
   const Vec3 along = map.direction(extrusion->along());
-  const std::string section = curve(*transformed(over(extrusion->curve(), extrusion->domain().u), map)),
+  const std::string section = curve(*transformed(curve_over(extrusion->curve(), extrusion->domain().u), map)),
                     direction = writer_.direction(glm::normalize(along)),
                     vector = writer_.shared(fmt::format("VECTOR('',{},{})", direction, step_real(glm::length(along))));
   return SurfaceEntity{writer_.add(fmt::format("SURFACE_OF_LINEAR_EXTRUSION('',{},{})", section, vector)), true};
@@ -270,7 +266,7 @@ std::optional<StepGeometry::SurfaceEntity> StepGeometry::revolved(const SurfaceP
   const Rectangle domain = revolution->domain();
   // The seam is where the surface begins.
   const Affine turn = Affine::rotation(domain.v.lo, axis.along, axis.through);
-  const std::string section = curve(*transformed(over(revolution->curve(), domain.u), map * turn));
+  const std::string section = curve(*transformed(curve_over(revolution->curve(), domain.u), map * turn));
   const std::string through = writer_.point(map.point(axis.through)),
                     along = writer_.direction(glm::normalize(map.direction(axis.along))),
                     line = writer_.shared(fmt::format("AXIS1_PLACEMENT('',{},{})", through, along));

@@ -515,7 +515,7 @@ class Imprinting {
     if (begin.point < 0) begin.point = point(curve->point(begin.t));
     if (end.point < 0) end.point = point(curve->point(end.t));
     Strand strand;
-    strand.curve = t == curve->domain() ? curve : std::make_shared<CurvePart>(curve, t);
+    strand.curve = curve_over(curve, t);
     strand.from = begin.point;
     strand.to = end.point;
     if (const auto known = known_strand(strand)) {

@@ -48,6 +48,10 @@ std::vector<CurvePiece> CurvePart::pieces() const {
   return result;
 }
 
+CurvePtr curve_over(const CurvePtr& curve, const Interval& range) {
+  return range == curve->domain() ? curve : std::make_shared<CurvePart>(curve, range);
+}
+
 std::vector<CurvePtr> unbroken_parts(const CurvePtr& curve) {
   const Interval domain = curve->domain();
   const double step = kStep * usual_size(*curve);

@@ -28,6 +28,9 @@ class CurvePart final : public Curve {
   Interval range_;
 };
 
+// The curve itself where the range is its domain, else that part of it; throws as the constructor.
+CurvePtr curve_over(const CurvePtr& curve, const Interval& range);
+
 // The parts between steps and poles, of all that a curve without them; none is shorter than 1e-12 of its domain.
 std::vector<CurvePtr> unbroken_parts(const CurvePtr& curve);
 

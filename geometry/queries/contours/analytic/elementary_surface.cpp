@@ -31,10 +31,6 @@ bool is_straight(const Curve& curve) {
   return true;
 }
 
-CurvePtr over(const CurvePtr& curve, const Interval& part) {
-  return part == curve->domain() ? curve : std::make_shared<CurvePart>(curve, part);
-}
-
 class Meridian {
  public:
   Meridian(CurvePtr curve, const Axis& axis, const Interval& turn)
@@ -92,12 +88,12 @@ class Meridian {
 
 SurfacePtr form_of(const RevolutionSurface& surface) {
   const Rectangle domain = surface.domain();
-  return Meridian(over(surface.curve(), domain.u), surface.axis(), domain.v).surface();
+  return Meridian(curve_over(surface.curve(), domain.u), surface.axis(), domain.v).surface();
 }
 
 SurfacePtr form_of(const ExtrusionSurface& surface) {
   const Rectangle domain = surface.domain();
-  const CurvePtr curve = over(surface.curve(), domain.u);
+  const CurvePtr curve = curve_over(surface.curve(), domain.u);
   const double length = glm::length(surface.along());
   const Vec3 along = surface.along() / length;
   if (is_straight(*curve)) {
