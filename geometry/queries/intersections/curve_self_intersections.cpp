@@ -306,7 +306,9 @@ class SelfIntersections {
     options.tolerance = {tolerance, tolerance, tolerance};
     const ParameterBox<2> domain{first, second};
     auto found = search_roots<2, 3>(system, domain, options);
-    isolate_crossings<2, 3>(system, domain, options, rounding_ / tolerance_, found);
+    // Nearer than that two places are one: only a cusp is asked for.
+    if (hull(first, second).width() > near())
+      isolate_crossings<2, 3>(system, domain, options, rounding_ / tolerance_, found);
     for (const auto& at : found.isolated) add(at[0], at[1], false);
     for (const auto& box : found.open) {
       if (may_be_cusp(box)) {

@@ -206,9 +206,10 @@ void require_measure(const Integral& integral, const std::string& what) {
   const bool is_found = std::isfinite(integral.value[0]) &&
                         (integral.converged || integral.error[0] <= kMinAccuracy * std::abs(integral.value[0]));
   if (!is_found)
-    throw std::invalid_argument(what +
-                                " is infinite or cannot be told: somewhere in the domain the derivatives grow "
-                                "without bounds or have no values");
+    throw std::invalid_argument(
+        what +
+        " is infinite or cannot be told: somewhere in the domain the derivatives grow "
+        "without bounds, have no values or change faster than the digits of the parameter tell");
 }
 
 // An integrand that is nothing but rounding seems to err as much as it is large, in either direction.

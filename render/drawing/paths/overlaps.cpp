@@ -125,12 +125,13 @@ const std::vector<int>& Overlaps::near(const Vec2& place) const {
 
 std::vector<int> Overlaps::near(const std::vector<Vec2>& places) const {
   std::vector<int> numbers;
+  std::vector<bool> known(drawn_.size());
   each_bin(places, kSame, [&](int64_t bin) {
     if (const auto found = bins_.find(bin); found != bins_.end())
-      numbers.insert(numbers.end(), found->second.begin(), found->second.end());
+      for (const int number : found->second)
+        if (!known[number]) known[number] = true, numbers.push_back(number);
   });
   std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
 }
 
