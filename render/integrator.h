@@ -19,12 +19,12 @@ class World;
 // The light of a sample by where it comes from, for the layers of a picture that show it so. Colour is emission +
 // diffuse + specular + transmission, and emission + direct + indirect, and the sum of all groups.
 struct LightParts {
-  static constexpr int kMostGroups = 16;
+  static constexpr int kMaxGroups = 16;
   Spectrum emission;  // of what is seen: glowing things, lamps, the background
   Spectrum indirect;  // over two and more surfaces, or from a lamp seen in mirrors and clear bodies
   // By what the first surface did: matt lobes, other reflection, passed through.
   Spectrum diffuse, specular, transmission;
-  std::array<Spectrum, kMostGroups> groups;  // of lights (Model::light_groups); 0: all that is in none
+  std::array<Spectrum, kMaxGroups> groups;  // of lights (Model::light_groups); 0: all that is in none
 };
 
 // What one camera ray brings to the film.

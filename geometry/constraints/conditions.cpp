@@ -12,8 +12,8 @@ namespace lekalo::geometry {
 namespace {
 
 // By those unknowns that a condition depends on: at most six of each of four points.
-constexpr int kMostUnknowns = 24;
-using Derivatives = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostUnknowns, 1>;
+constexpr int kMaxUnknowns = 24;
+using Derivatives = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxUnknowns, 1>;
 using Dual = Eigen::AutoDiffScalar<Derivatives>;
 
 // All unknowns, of which those in `used` (sorted) have derivatives.

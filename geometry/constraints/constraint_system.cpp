@@ -17,7 +17,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMostSteps = 60, kMostHalvings = 30;
+constexpr int kMaxSteps = 60, kMaxHalvings = 30;
 constexpr double kMet = 1e-11;       // of a residual, relative to the size
 constexpr double kRounding = 4e-15;  // of a residual, relative to the unknowns times its slopes
 constexpr double kStep = 1e-13;      // of the last step, relative to the size
@@ -103,10 +103,10 @@ class Solving {
       const auto keep = [&](const std::optional<Stationary>& one) {
         if (one && (!best || change(one->p) < change(best->p))) best = one;
       };
-      auto [feasible, at] = least_norm(start_);
+      auto [feasible, at] = min_norm(start_);
       // Where all ways look alike, as from a circle's centre, a step aside, the same each time.
       if (!is_met(feasible, at) && !best) {
-        auto [other, there] = least_norm(aside(feasible));
+        auto [other, there] = min_norm(aside(feasible));
         if (is_met(other, there)) feasible = std::move(other), at = std::move(there);
       }
       if (is_met(feasible, at))
@@ -118,7 +118,7 @@ class Solving {
       if (const auto way = way_down(*best)) {
         const VectorXd top = best->p;
         for (const double length : {0.1, -0.1, 0.3, -0.3, 1.0, -1.0, 3.0, -3.0}) {
-          const auto [foot, there] = least_norm(top + length * system_.size * *way);
+          const auto [foot, there] = min_norm(top + length * system_.size * *way);
           if (is_met(foot, there)) keep(lagrange(foot));
         }
       }
@@ -207,7 +207,7 @@ class Solving {
     if (m > 0 && p != start_)
       multipliers = at.jacobian.transpose().completeOrthogonalDecomposition().solve(
           VectorXd(-(weights_.cwiseProduct(p - start_))));
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
       MatrixXd matrix = MatrixXd::Zero(n_ + m, n_ + m);
       matrix.topLeftCorner(n_, n_) = curvature(p, multipliers);
       matrix.topLeftCorner(n_, n_).diagonal() += weights_;
@@ -232,10 +232,10 @@ class Solving {
   }
 
   // Steps of least norm, each halved until the residual falls: as near to a solution as they come.
-  std::pair<VectorXd, Values> least_norm(VectorXd p) const {
+  std::pair<VectorXd, Values> min_norm(VectorXd p) const {
     Values at = values(p, active_);
     const VectorXd inverse = weights_.cwiseInverse();
-    for (int step = 0; step < kMostSteps && !is_met(p, at); ++step) {
+    for (int step = 0; step < kMaxSteps && !is_met(p, at); ++step) {
       const MatrixXd scaled = at.jacobian * inverse.cwiseSqrt().asDiagonal();
       Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(scaled);
       solver.setThreshold(kRank);
@@ -243,7 +243,7 @@ class Solving {
       // A slope near none asks for any length.
       double share = std::min(1.0, kLongest * (system_.size + p.norm()) / by.norm());
       Values next = values(p + share * by, active_);
-      for (int k = 0; k < kMostHalvings && !(next.f.norm() < at.f.norm()); ++k) {
+      for (int k = 0; k < kMaxHalvings && !(next.f.norm() < at.f.norm()); ++k) {
         share /= 2;
         next = values(p + share * by, active_);
       }

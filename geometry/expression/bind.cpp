@@ -15,7 +15,7 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr int kLargestIntegerPower = 16;
-constexpr int kMostTerms = 1000, kGaussPoints = 32;
+constexpr int kMaxTerms = 1000, kGaussPoints = 32;
 
 // What is known of a value before it is computed.
 struct Known {
@@ -145,7 +145,7 @@ class ExpressionBinder {
     for (const Expression::Instruction& in : parsed) {
       offset_ = in.offset;
       if (!step(in)) return false;
-      if (expression_.program_.size() > Expression::kMostSteps)
+      if (expression_.program_.size() > Expression::kMaxSteps)
         return fail("the formula has too many operations", "take fewer terms");
     }
     offset_ = offset;
@@ -188,10 +188,10 @@ class ExpressionBinder {
     const auto from = part(block.from), to = from ? part(block.to) : std::nullopt;
     if (!from || !to) return false;
     const auto a = number_of(*from), b = number_of(*to);
-    if (!a || !b || !(std::abs(*a) < kMostTerms && std::abs(*b) < kMostTerms) || *a != std::floor(*a) ||
+    if (!a || !b || !(std::abs(*a) < kMaxTerms && std::abs(*b) < kMaxTerms) || *a != std::floor(*a) ||
         *b != std::floor(*b))
       return fail("a sum runs from one whole number to another",
-                  fmt::format("its ends hold parameters and counters, but no variables, and are below {}", kMostTerms));
+                  fmt::format("its ends hold parameters and counters, but no variables, and are below {}", kMaxTerms));
     bool is_first = true;
     for (double i = *a; i <= *b; ++i) {
       if (!body(block, {literal(i)})) return false;
@@ -427,7 +427,7 @@ Expression Expression::of(std::span<const Expression> arguments) const {
     } else {
       result.program_.push_back(in);
     }
-    if (result.program_.size() > kMostSteps) throw std::length_error("the formula has too many operations");
+    if (result.program_.size() > kMaxSteps) throw std::length_error("the formula has too many operations");
   }
   result.compile();
   return result;

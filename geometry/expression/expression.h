@@ -56,7 +56,7 @@ class Expression {
  public:
   static constexpr int kDeepest = 200;            // nested parentheses, functions, signs, powers, else branches
   static constexpr std::size_t kLongest = 10000;  // bytes of text
-  static constexpr std::size_t kMostSteps = 20000;
+  static constexpr std::size_t kMaxSteps = 20000;
 
   // A name that gets its value at each evaluation (t, u, v, s).
   struct Variable {
@@ -85,7 +85,7 @@ class Expression {
 
   // The rest needs a bound expression.
   // This one with an expression in the place of each variable, in their order in bind(); all have plain measures.
-  // Its variables are those of the arguments. std::length_error where it would have more than kMostSteps operations.
+  // Its variables are those of the arguments. std::length_error where it would have more than kMaxSteps operations.
   Expression of(std::span<const Expression> arguments) const;
   Measure measure() const { return measure_; }
   // A plain value in which pi survives: probably meant as radians.

@@ -10,13 +10,13 @@
 namespace lekalo::geometry {
 namespace {
 
-constexpr int kMost = LinePolynomial::kMaxDegree;
+constexpr int kMaxDegree = LinePolynomial::kMaxDegree;
 constexpr double kUnitRoundoff = 0x1p-53;
 
-using Row = std::array<double, kMost + 1>;
-constexpr std::array<Row, kMost + 1> kBinomials = [] {
-  std::array<Row, kMost + 1> rows{};
-  for (int n = 0; n <= kMost; ++n) {
+using Row = std::array<double, kMaxDegree + 1>;
+constexpr std::array<Row, kMaxDegree + 1> kBinomials = [] {
+  std::array<Row, kMaxDegree + 1> rows{};
+  for (int n = 0; n <= kMaxDegree; ++n) {
     rows[n][0] = 1;
     for (int i = 1; i <= n; ++i) rows[n][i] = rows[n - 1][i - 1] + (i < n ? rows[n - 1][i] : 0);
   }
@@ -26,7 +26,7 @@ constexpr std::array<Row, kMost + 1> kBinomials = [] {
 // The coefficients a_i of a sum.
 struct Form {
   int degree;
-  double a[kMost + 1];
+  double a[kMaxDegree + 1];
 };
 
 void multiply(const double* a, int n, const double* b, int m, double* product) {

@@ -52,11 +52,11 @@ SurfaceContact read_contact(const Fields& f) {
 }
 
 void check_gouging(const Fields& f, const ToolPathFacts::Bend& bend) {
-  if (f.text("gouging") == "allow" || !(bend.least_difference < 0)) return;
+  if (f.text("gouging") == "allow" || !(bend.min_difference < 0)) return;
   throw FieldError("cutter",
                    fmt::format("the cutter cuts into the part at u = {:.6g}, v = {:.6g}: there its curvature is {:.6g} "
                                "less than that of the surface",
-                               bend.u, bend.v, -bend.least_difference),
+                               bend.u, bend.v, -bend.min_difference),
                    "a smaller corner_radius or radius, the other side, or gouging: allow");
 }
 

@@ -71,9 +71,9 @@ ToolPathFacts facts_of(const SurfaceContact& contact, const Interval& range, dou
   ToolPathFacts facts;
   facts.part = contact.line.of;
   const StripReport report = strip_report(contact, range, height);
-  facts.bend = {report.least_difference, report.u, report.v};
-  if (height > 0 && std::isfinite(report.greatest_width))
-    facts.strip = {height, report.least_width, report.greatest_width, report.least_band, report.greatest_band};
+  facts.bend = {report.min_difference, report.u, report.v};
+  if (height > 0 && std::isfinite(report.max_width))
+    facts.strip = {height, report.min_width, report.max_width, report.min_band, report.max_band};
   return facts;
 }
 

@@ -8,11 +8,11 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr int kGrid = 64;        // of the surface, each way
-constexpr int kPoses = 1000;     // of the path, about
-constexpr int kLeastPoses = 16;  // of a move
-constexpr int kHalvings = 40;    // of the steps of both
-constexpr int kMostSteps = 2000;
+constexpr int kGrid = 64;      // of the surface, each way
+constexpr int kPoses = 1000;   // of the path, about
+constexpr int kMinPoses = 16;  // of a move
+constexpr int kHalvings = 40;  // of the steps of both
+constexpr int kMaxSteps = 2000;
 // What is less deep, of the radius, is contact.
 constexpr double kContact = 1e-9;
 
@@ -76,7 +76,7 @@ struct Probe {
   // Uphill along the coordinates by ever smaller steps (Hooke, Jeeves 1961).
   void climb(std::array<double, 3> step) {
     const auto range = ranges();
-    for (int k = 0, steps = 0; k < kHalvings && steps < kMostSteps; ++steps) {
+    for (int k = 0, steps = 0; k < kHalvings && steps < kMaxSteps; ++steps) {
       bool rises = false;
       for (const size_t i : {0, 1, 2})
         for (const double way : {-1.0, 1.0}) {
@@ -100,7 +100,7 @@ DeepestCut deepest_cut(const ToolPath& path, const Surface& part) {
   const double reach = std::max({cutter.radius, cutter.top_radius(), cutter.flank_radius()});
   const std::vector<Place> places = places_of(part);
   Probe deepest{cutter, part};
-  const int count = std::max(kLeastPoses, kPoses / static_cast<int>(path.moves().size()));
+  const int count = std::max(kMinPoses, kPoses / static_cast<int>(path.moves().size()));
   for (const ToolMove& move : path.moves()) {
     if (move.kind != ToolMove::Kind::cut && move.kind != ToolMove::Kind::link) continue;
     const Interval range = move.curve->domain();

@@ -10,7 +10,7 @@ namespace lekalo::geometry {
 namespace {
 
 // Orders of the edges at vertices in which closed ways are tried, and how many ways in all where there are many starts.
-constexpr int kOrders = 48, kLeastOrders = 2;
+constexpr int kOrders = 48, kMinOrders = 2;
 constexpr int kTriedWays = 2000;
 // Weights within this part of each other are the same.
 constexpr double kSameWeight = 1e-12;
@@ -177,7 +177,7 @@ Walk shortened_walk(const RouteGraph& graph, const PostmanRoute& route, int star
   Walk best;
   double least = std::numeric_limits<double>::infinity();
   const std::vector<int> starts = starts_of(graph, start);
-  const int orders = std::clamp(kTriedWays / static_cast<int>(starts.size()), kLeastOrders, kOrders);
+  const int orders = std::clamp(kTriedWays / static_cast<int>(starts.size()), kMinOrders, kOrders);
   for (const int from : starts)
     for (int variant = 0; variant < orders; ++variant) {
       EdgesAt order = at;

@@ -15,7 +15,7 @@ namespace {
 constexpr int kPlaces = 64;   // along a row
 constexpr int kGrid = 32;     // of a surface, for how far planes reach
 constexpr int kSettling = 8;  // of the distance to a row whose strip is narrower
-constexpr int kMostRows = 10000;
+constexpr int kMaxRows = 10000;
 
 template <class See>
 void along(const SurfaceContact& contact, const See& see) {
@@ -38,8 +38,8 @@ Interval reach_along(const Surface& surface, const Vec3& origin, const Vec3& nor
 }
 
 void check_count(double count, const char* field) {
-  if (!(count <= kMostRows))
-    throw FieldError(field, fmt::format("that makes {:.3g} rows, more than {}", count, kMostRows), "a larger one");
+  if (!(count <= kMaxRows))
+    throw FieldError(field, fmt::format("that makes {:.3g} rows, more than {}", count, kMaxRows), "a larger one");
 }
 
 // At both ends, or in the middles of as many parts.

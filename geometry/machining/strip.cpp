@@ -47,13 +47,13 @@ PartBend part_bend(const Mat3& shape, const Vec3& x, const Vec3& y, double dista
   return {form * back, back};
 }
 
-double least_eigenvalue(double a, double b, double c) { return 0.5 * (a + c) - std::hypot(0.5 * (a - c), b); }
+double min_eigenvalue(double a, double b, double c) { return 0.5 * (a + c) - std::hypot(0.5 * (a - c), b); }
 
-double least_difference(const CutterBend& cutter, const PartBend& part, const Vec3& x, const Vec3& y) {
+double min_difference(const CutterBend& cutter, const PartBend& part, const Vec3& x, const Vec3& y) {
   const glm::dvec2 m(glm::dot(cutter.meridian, x), glm::dot(cutter.meridian, y)), p(-m.y, m.x);
   if (std::isinf(cutter.k1)) return cutter.k2 - glm::dot(p, part.form * p);
   const auto entry = [&](int i, int j) { return cutter.k1 * m[i] * m[j] + cutter.k2 * p[i] * p[j] - part.form[i][j]; };
-  return least_eigenvalue(entry(0, 0), entry(0, 1), entry(1, 1));
+  return min_eigenvalue(entry(0, 0), entry(0, 1), entry(1, 1));
 }
 
 // (u, v) of a tangent vector.
@@ -68,7 +68,7 @@ Vec2 parameters_of(const SurfaceJet& jet, const Vec3& vector) {
 
 double ContactBend::width(double height) const {
   const double difference = cutter_across - part_across;
-  if (!(difference > 0)) return least_difference < 0 ? 0 : kInfinity;
+  if (!(difference > 0)) return min_difference < 0 ? 0 : kInfinity;
   return std::sqrt(8 * height / difference);
 }
 
@@ -83,7 +83,7 @@ ContactBend contact_bend(const SurfaceContact& contact, double t) {
   const CutterBend cutter = cutter_bend(contact.cutter, place);
   const PartBend part = part_bend(*shape, x, y, contact.allowance);
   const glm::dvec2 over = part.back * glm::dvec2(0, 1);
-  return {cutter.along(y), part.form[1][1], least_difference(cutter, part, x, y),
+  return {cutter.along(y), part.form[1][1], min_difference(cutter, part, x, y),
           parameters_of(surface.evaluate(line.u, line.v, 1), over.x * x + over.y * y)};
 }
 
@@ -93,15 +93,15 @@ StripReport strip_report(const SurfaceContact& contact, const Interval& range, d
     const double t = range.clamp(range.lo + range.width() * i / kPlaces);
     const ContactBend bend = contact_bend(contact, t);
     const auto line = contact.line(t);
-    if (bend.least_difference < report.least_difference)
-      report.least_difference = bend.least_difference, report.u = line.u, report.v = line.v;
+    if (bend.min_difference < report.min_difference)
+      report.min_difference = bend.min_difference, report.u = line.u, report.v = line.v;
     if (!(height > 0)) continue;
     const double width = bend.width(height);
-    report.least_width = std::min(report.least_width, width);
-    report.greatest_width = std::max(report.greatest_width, width);
+    report.min_width = std::min(report.min_width, width);
+    report.max_width = std::max(report.max_width, width);
     const double band = width * glm::length(bend.across);
-    report.least_band = std::min(report.least_band, band);
-    report.greatest_band = std::max(report.greatest_band, band);
+    report.min_band = std::min(report.min_band, band);
+    report.max_band = std::max(report.max_band, band);
   }
   return report;
 }

@@ -18,7 +18,7 @@ namespace lekalo::geometry {
 // At one place. Infinite curvatures stand for a sharp corner.
 struct ContactBend {
   double cutter_across = 0, part_across = 0;  // k_F, k_G along chi
-  double least_difference = 0;                // of the cutter's curvature above the part's, over all directions
+  double min_difference = 0;                  // of the cutter's curvature above the part's, over all directions
   Vec2 across{0};                             // the change of (u, v) by a unit of length along chi
 
   // Of the strip within a height > 0; infinite where the cutter fits the part, 0 where it cuts into it.
@@ -32,9 +32,9 @@ ContactBend contact_bend(const SurfaceContact& contact, double t);
 
 // The least differences and widths along a line, looked for among so many places.
 struct StripReport {
-  double least_difference = kInfinity, u = 0, v = 0;   // and where
-  double least_width = kInfinity, greatest_width = 0;  // of the strip within the height; without one not known
-  double greatest_band = 0, least_band = kInfinity;    // d: length of the change of (u, v) over the strip's width
+  double min_difference = kInfinity, u = 0, v = 0;  // and where
+  double min_width = kInfinity, max_width = 0;      // of the strip within the height; without one not known
+  double max_band = 0, min_band = kInfinity;        // d: length of the change of (u, v) over the strip's width
 };
 StripReport strip_report(const SurfaceContact& contact, const Interval& range, double height);
 

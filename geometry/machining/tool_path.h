@@ -45,11 +45,11 @@ struct ToolPathFacts {
   int rows = 0;  // 0: it is no path of rows
   std::optional<double> scallop_height;
   struct Bend {
-    double least_difference, u, v;
+    double min_difference, u, v;
   };
   std::optional<Bend> bend;  // curvature of the cutter above that of the part: negative where it cuts into it
   struct Strip {
-    double height, least_width, greatest_width, least_band, greatest_band;
+    double height, min_width, max_width, min_band, max_band;
   };
   std::optional<Strip> strip;
   SurfacePtr part;  // that it cuts; null of a path along a curve

@@ -181,8 +181,7 @@ ToolPathFacts facts_of(const RowFamily& family, const std::vector<PathRow>& rows
   double greatest = 0;
   for (const PathRow& row : rows) {
     const StripReport report = strip_report(row.contact, row.contact.line.image->domain(), 0);
-    if (report.least_difference < facts.bend->least_difference)
-      facts.bend = {report.least_difference, report.u, report.v};
+    if (report.min_difference < facts.bend->min_difference) facts.bend = {report.min_difference, report.u, report.v};
     for (const double other : places_beside(rows, row.at))
       greatest = std::max(greatest, family.scallop(row, std::abs(row.at - other)));
   }

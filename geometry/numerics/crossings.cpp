@@ -158,7 +158,7 @@ class Search {
   }
 
   void add(double s) {
-    if (found_.count == Crossings::kMost) return;
+    if (found_.count == Crossings::kMaxCount) return;
     found_.s[found_.count++] = s;
     positive_ = !positive_;
   }

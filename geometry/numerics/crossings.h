@@ -29,10 +29,10 @@ class BernsteinSource {
 };
 
 struct Crossings {
-  static constexpr int kMost = 64;
+  static constexpr int kMaxCount = 64;
   bool begins_positive = true, ends_positive = true;
   int count = 0;
-  std::array<double, kMost> s;  // in [0, 1], in order
+  std::array<double, kMaxCount> s;  // in [0, 1], in order
 };
 
 // With `first_only` the first one suffices; the sign at the end is then not known.

@@ -12,7 +12,7 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr size_t kMostSurfels = 1000000;
+constexpr size_t kMaxSurfels = 1000000;
 constexpr double kTip = 1e-2;  // of epsilon: cells of this diameter need no normal
 
 struct Range {
@@ -53,8 +53,8 @@ class Net {
     while (!cells.empty()) {
       const Rectangle cell = cells.back();
       cells.pop_back();
-      if (net_.size() + cells.size() > kMostSurfels)
-        throw FieldError("epsilon", fmt::format("the net has more than {} points", kMostSurfels),
+      if (net_.size() + cells.size() > kMaxSurfels)
+        throw FieldError("epsilon", fmt::format("the net has more than {} points", kMaxSurfels),
                          "larger numbers make fewer");
       const SurfaceEnclosure in = surface_.enclose(cell, 1);
       const double u = cell.u.middle(), v = cell.v.middle();

@@ -42,7 +42,7 @@ std::string own_instruction_set() {
 
 // Longer ones no command line has.
 constexpr uint64_t kLongestJob = 1 << 24;
-constexpr uint64_t kMostParts = 1 << 20;
+constexpr uint64_t kMaxParts = 1 << 20;
 
 // Reads what is not cut off, and sums it up.
 class Reader {
@@ -90,8 +90,8 @@ PartialHeader read_header(const std::string& file, Reader& in, std::string& set)
   PartialHeader header;
   header.identity = in.number();
   header.settings = in.number();
-  header.part.index = static_cast<int>(in.number(kMostParts));
-  header.part.count = static_cast<int>(in.number(kMostParts));
+  header.part.index = static_cast<int>(in.number(kMaxParts));
+  header.part.count = static_cast<int>(in.number(kMaxParts));
   header.tiles = static_cast<int>(in.number(1 << 30));
   header.done = static_cast<int>(in.number(1 << 30));
   header.job = in.text(in.number(kLongestJob));

@@ -26,7 +26,7 @@ double srgb_decode(double encoded) {
 
 namespace {
 
-constexpr double kMostLight = 1e9;
+constexpr double kMaxLight = 1e9;
 
 std::uint16_t level_of(double value, int levels) {
   if (std::isnan(value)) return 0;
@@ -105,7 +105,7 @@ std::vector<float> seen(const ColorPlanes& planes, const Image& image, const Dis
     const float radiance[3] = {planes.r[i], planes.g[i], planes.b[i]};
     for (std::size_t c = 0; c < 3; ++c) {
       const double light = scale * radiance[c] / opacity;
-      rgb[3 * i + c] = std::isnan(light) ? 0 : static_cast<float>(std::clamp(light, -kMostLight, kMostLight));
+      rgb[3 * i + c] = std::isnan(light) ? 0 : static_cast<float>(std::clamp(light, -kMaxLight, kMaxLight));
     }
   }
   apply(*transform.view, image.width, image.height, rgb);

@@ -79,10 +79,10 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 }
 
 std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 12;
+  constexpr std::size_t kMaxNames = 12;
   std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) text += (i > 0 ? ", '" : "'") + names[i] + "'";
-  return names.size() > kMost ? text + ", and " + std::to_string(names.size() - kMost) + " more" : text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMaxNames); ++i) text += (i > 0 ? ", '" : "'") + names[i] + "'";
+  return names.size() > kMaxNames ? text + ", and " + std::to_string(names.size() - kMaxNames) + " more" : text;
 }
 
 // The name, which is one of them; what it is by default where it is empty.

@@ -29,11 +29,11 @@ Color agx(const Color& color) {
   static constexpr std::array<Color, 3> kSpread{{{1.19687900512017, -0.0980208811401368, -0.0990297440797205},
                                                  {-0.0528968517574562, 1.15190312990417, -0.0989611768448433},
                                                  {-0.0529716355144438, -0.0980434501171241, 1.15107367264116}}};
-  constexpr double kLeast = -12.47393, kMost = 4.026069;  // stops
+  constexpr double kMinStops = -12.47393, kMaxStops = 4.026069;  // stops
   Color value = times(kDrawTogether, color);
   for (double& v : value) {
-    const double stops = v > 0 ? std::log2(v) : kLeast;
-    v = agx_polynomial((std::clamp(stops, kLeast, kMost) - kLeast) / (kMost - kLeast));
+    const double stops = v > 0 ? std::log2(v) : kMinStops;
+    v = agx_polynomial((std::clamp(stops, kMinStops, kMaxStops) - kMinStops) / (kMaxStops - kMinStops));
   }
   value = times(kSpread, value);
   for (double& v : value) v = std::pow(std::max(v, 0.0), 2.2);

@@ -24,7 +24,7 @@ using geometry::kPi;
 namespace {
 
 // With more things that throw light they share one ball.
-constexpr size_t kMostBalls = 64;
+constexpr size_t kMaxBalls = 64;
 // Share of light that a clear coat throws, against 1 of glass and metal; of the choice alone.
 constexpr double kCoat = 0.05;
 // Share of the choice of lamps and balls that does not look at how much light there is.
@@ -200,7 +200,7 @@ class ThrownBox {
 // None at all where something without bounds throws light.
 std::vector<Ball> balls_of(const World& world) {
   const PlacedObjects placed(world.model().objects, [](const Object& object) { return thrown_by(object) > 0; });
-  const bool shared = placed.count() > kMostBalls;
+  const bool shared = placed.count() > kMaxBalls;
   std::vector<Ball> balls;
   bool bounded = true;
   const auto add = [&](const geometry::Box3& box, double thrown) {

@@ -15,7 +15,7 @@ namespace {
 // Lamps of a leaf at most.
 constexpr size_t kLeafLamps = 8;
 // Light that leaves a lamp at an angle counts at least as this much of that along its axis: spots are full to the rim.
-constexpr double kLeastCosine = 0.1;
+constexpr double kMinCosine = 0.1;
 // Of angles, so that rounding excludes nothing.
 constexpr double kSlack = 1e-6;
 
@@ -88,7 +88,7 @@ std::optional<LightTree::Node> LightTree::placed(const Light& lamp) {
   return node;
 }
 
-LightTree::LightTree(const World& world) : world_(world), least_square_(1e-12 * world.radius() * world.radius()) {
+LightTree::LightTree(const World& world) : world_(world), min_square_(1e-12 * world.radius() * world.radius()) {
   std::vector<Node> leaves;
   const size_t lamps = world.lamps().size();
   for (size_t i = 0; i < lamps; ++i) {
@@ -202,13 +202,13 @@ size_t LightTree::best_split(std::vector<Node>& leaves, size_t begin, size_t end
 double LightTree::importance(const Node& node, const Vec3& point) const {
   const Vec3 to_point = point - node.box.center();
   const double radius = 0.5 * node.box.diameter(), square = glm::dot(to_point, to_point);
-  const double power = node.even + node.falling / std::max({square, radius * radius, least_square_});
+  const double power = node.even + node.falling / std::max({square, radius * radius, min_square_});
   if (node.opening + node.spread >= kPi || square <= radius * radius) return power;
   const double distance = std::sqrt(square);
   const double seen = std::asin(std::min(1.0, radius / distance));  // half the angle under which the box is seen
   const double off = angle_between(node.axis, to_point / distance) - node.opening - seen - kSlack;
   if (off >= node.spread) return 0;
-  return power * std::max(std::cos(std::max(off, 0.0)), kLeastCosine);
+  return power * std::max(std::cos(std::max(off, 0.0)), kMinCosine);
 }
 
 double LightTree::left_share(const Node& node, const Vec3& point) const {

@@ -68,7 +68,7 @@ class LightTree {
   void add_lamps(const Node& leaf, const Vec3& point, std::vector<Candidate>& list) const;
 
   const World& world_;
-  double least_square_;          // of distances
+  double min_square_;            // of distances
   std::vector<Node> nodes_;      // the root is the first
   std::vector<int> leaf_of_;     // by number; -1: in no tree
   std::vector<size_t> numbers_;  // of lamps in the tree, those of a leaf together

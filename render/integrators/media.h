@@ -27,7 +27,7 @@ class Media {
   // `instance` numbers the copy of the body; a body that is entered twice (a wrong mesh) counts once.
   void enter(int64_t instance, const Medium& medium) {
     leave(instance);
-    if (count_ == kMost) {  // forget the outermost: nobody nests so many bodies
+    if (count_ == kMaxMedia) {  // forget the outermost: nobody nests so many bodies
       for (int i = 1; i < count_; ++i) entries_[i - 1] = entries_[i];
       --count_;
     }
@@ -68,9 +68,9 @@ class Media {
     for (int i = 0; i < count_; ++i) entries_[i] = other.entries_[i];
   }
 
-  static constexpr int kMost = 8;
+  static constexpr int kMaxMedia = 8;
   union {
-    std::array<Entry, kMost> entries_;  // not initialised: nearly all of it is never used
+    std::array<Entry, kMaxMedia> entries_;  // not initialised: nearly all of it is never used
   };
   int count_;
 };

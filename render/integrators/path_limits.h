@@ -9,9 +9,9 @@ namespace lekalo::render {
 inline constexpr int kMaxPasses = 1000;
 // Paths live at least so many bounces, and then by chance (Russian roulette).
 inline constexpr int kSafeBounces = 4;
-inline constexpr double kLongestLife = 0.95, kLeastLife = 0.02;
+inline constexpr double kLongestLife = 0.95, kMinLife = 0.02;
 
 // The chance to go on of a path that still brings this share of its light.
-inline double chance_to_live(double share) { return std::clamp(share, kLeastLife, kLongestLife); }
+inline double chance_to_live(double share) { return std::clamp(share, kMinLife, kLongestLife); }
 
 }  // namespace lekalo::render

@@ -352,12 +352,12 @@ double PathTracer::weight_of_glow(const SurfacePoint& point) const {
 }
 
 void PathTracer::add_caustic(const Boundary& seen, const Bsdf& bsdf) {
-  constexpr double kLeastCosine = 1e-3;
+  constexpr double kMinCosine = 1e-3;
   Spectrum sum;
   landed_.clear();
   caustics_->photons.each_near(seen.point.position, seen.geometric_normal(), [&](const Photon& photon, double density) {
     const double cosine = std::fabs(glm::dot(photon.from, bsdf.normal()));
-    const auto factor = static_cast<float>(density / std::max(cosine, kLeastCosine));
+    const auto factor = static_cast<float>(density / std::max(cosine, kMinCosine));
     const Spectrum light = factor * (bsdf.evaluate(photon.from) * of_photons_(photon.power));
     sum += light;
     if (parts_) landed_.emplace_back(&photon, light);
@@ -511,7 +511,7 @@ void PathTracer::trace(Ray ray, Hit hit) {
     const bool scatters = !medium.scattering.is_zero();
     if (scatters && is_scattered(ray, end, medium, media)) {
       if (scatterings_ > options_.max_scatterings) return;
-      const double life = std::clamp(kDimWalk * static_cast<double>(share_.largest()), kLeastLife, 1.0);
+      const double life = std::clamp(kDimWalk * static_cast<double>(share_.largest()), kMinLife, 1.0);
       if (random_.next_pair().x >= life) return;
       share_ *= static_cast<float>(1 / life);
       continue;

@@ -11,9 +11,9 @@ namespace lekalo::render {
 
 namespace {
 
-constexpr size_t kNear = 60;                             // photons within the radius of one in the middle of the crowd
-constexpr size_t kProbes = 101;                          // of which the middle one decides
-constexpr double kLeastShare = 1e-5, kMostShare = 0.05;  // radius over the size of the box of all photons
+constexpr size_t kNear = 60;                          // photons within the radius of one in the middle of the crowd
+constexpr size_t kProbes = 101;                       // of which the middle one decides
+constexpr double kMinShare = 1e-5, kMaxShare = 0.05;  // radius over the size of the box of all photons
 
 // Distance to the kNear-th neighbour, of the middle one of some photons.
 double usual_distance(const std::vector<Photon>& photons) {
@@ -35,7 +35,7 @@ double usual_distance(const std::vector<Photon>& photons) {
     }
   });
   std::nth_element(found.begin(), found.begin() + found.size() / 2, found.end());
-  return std::clamp(found[found.size() / 2], kLeastShare * size, kMostShare * size);
+  return std::clamp(found[found.size() / 2], kMinShare * size, kMaxShare * size);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ using geometry::kPi;
 
 namespace {
 
-constexpr double kLeastCosine = 1e-3;   // of the zenith angle, at the horizon
+constexpr double kMinCosine = 1e-3;     // of the zenith angle, at the horizon
 constexpr double kSolarConstant = 128;  // klx
 constexpr double kSunKelvin = 5778;
 
@@ -38,8 +38,7 @@ double ozone(double nanometres) {
 
 double Daylight::Perez::at(double cos_zenith, double gamma) const {
   const double cosine = std::cos(gamma);
-  return (1 + a * std::exp(b / std::max(cos_zenith, kLeastCosine))) *
-         (1 + c * std::exp(d * gamma) + e * cosine * cosine);
+  return (1 + a * std::exp(b / std::max(cos_zenith, kMinCosine))) * (1 + c * std::exp(d * gamma) + e * cosine * cosine);
 }
 
 Daylight::Daylight(const Vec3& to_sun, double turbidity)
@@ -67,9 +66,9 @@ double Daylight::quantity(const Perez& f, double zenith, double cos_zenith, doub
 }
 
 Daylight::Look Daylight::look(const Vec3& direction) const {
-  const Vec3 w = direction.z >= kLeastCosine
+  const Vec3 w = direction.z >= kMinCosine
                      ? direction
-                     : glm::normalize(Vec3(direction.x, direction.y, kLeastCosine * (1 + std::fabs(direction.z))));
+                     : glm::normalize(Vec3(direction.x, direction.y, kMinCosine * (1 + std::fabs(direction.z))));
   const double gamma = angle(w, to_sun_);
   return {quantity(luminance_, zenith_luminance_, w.z, gamma), quantity(x_, zenith_x_, w.z, gamma),
           quantity(y_, zenith_y_, w.z, gamma)};

@@ -8,7 +8,7 @@ namespace lekalo::render {
 namespace {
 
 // Viewers that look along the surface are taken a little above it.
-constexpr double kLeastCosine = 1e-5;
+constexpr double kMinCosine = 1e-5;
 
 geometry::Frame surface_frame(const Vec3& normal, const Vec3& along) {
   const Vec3 x = along - glm::dot(along, normal) * normal;
@@ -18,8 +18,8 @@ geometry::Frame surface_frame(const Vec3& normal, const Vec3& along) {
 }
 
 Vec3 above(Vec3 out) {
-  if (out.z >= kLeastCosine) return out;
-  out.z = kLeastCosine;
+  if (out.z >= kMinCosine) return out;
+  out.z = kMinCosine;
   return glm::normalize(out);
 }
 
@@ -140,7 +140,7 @@ std::optional<BsdfSample> Bsdf::sample(const Vec2& choice, const Vec2& square) c
 }
 
 Spectrum straight_share(const Scattering& scattering, double cosine, const Sides& sides) {
-  const Vec3 out(std::sqrt(std::max(0.0, 1 - cosine * cosine)), 0, std::max(cosine, kLeastCosine));
+  const Vec3 out(std::sqrt(std::max(0.0, 1 - cosine * cosine)), 0, std::max(cosine, kMinCosine));
   Spectrum sum;
   for (const WeightedLobe& part : scattering.lobes) {
     Spectrum share;

@@ -44,7 +44,7 @@ class Bsdf {
   geometry::Frame frame_;
   Vec3 geometric_normal_, out_;  // out_ in the frame
   Sides sides_;
-  std::array<double, LobeList::kMost> importance_;
+  std::array<double, LobeList::kMaxLobes> importance_;
   double total_ = 0;
   float scale_;
 };

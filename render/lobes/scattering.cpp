@@ -27,7 +27,7 @@ void LobeList::lay_over(const LobeAlbedo& albedo, float weight) {
 
 void LobeList::append(const LobeList& others, const Spectrum& weight) {
   for (const WeightedLobe& other : others) {
-    if (count_ == kMost || weight.is_zero()) return;
+    if (count_ == kMaxLobes || weight.is_zero()) return;
     ::new (&lobes_[count_]) WeightedLobe(other);
     lobes_[count_++].weight *= weight;
   }

@@ -38,7 +38,7 @@ struct WeightedLobe {
 // A few lobes; room for more is not touched.
 class LobeList {
  public:
-  static constexpr int kMost = 12;
+  static constexpr int kMaxLobes = 12;
 
   LobeList() : count_(0) {}
   LobeList(const LobeList& other) : count_(0) { append(other, Spectrum(1.0f)); }
@@ -52,7 +52,7 @@ class LobeList {
   // Nothing if the weight is zero, or the list full; mixes, which could fill it, are refused (materials/mix.cpp).
   template <class AnyLobe>
   void add(const AnyLobe& lobe, const Spectrum& weight = Spectrum(1.0f)) {
-    if (count_ == kMost || weight.is_zero()) return;
+    if (count_ == kMaxLobes || weight.is_zero()) return;
     WeightedLobe* const place = ::new (&lobes_[count_]) WeightedLobe;
     place->lobe.template emplace<AnyLobe>(lobe);
     place->weight = weight;
@@ -75,7 +75,7 @@ class LobeList {
   void lay_over(const LobeAlbedo& albedo, float weight);
 
   union {
-    std::array<WeightedLobe, kMost> lobes_;  // not initialised: most of it is never used
+    std::array<WeightedLobe, kMaxLobes> lobes_;  // not initialised: most of it is never used
   };
   int count_;
 };

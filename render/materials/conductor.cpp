@@ -38,12 +38,12 @@ ComplexIndex seen_index(const std::string& metal) {
     entries.push_back(metal_index(metal, one));
   }
   constexpr int kAngles = 8, kPlaces = 500;
-  constexpr double kMost = 0.9999;  // n and k of what reflects all are not finite
+  constexpr double kMaxReflectance = 0.9999;  // n and k of what reflects all are not finite
   std::vector<Spectrum> seen;
   for (int j = 1; j <= kAngles; ++j) seen.push_back(seen_reflectance(entries, static_cast<double>(j) / kAngles));
   ComplexIndex index;
   for (int lane = 0; lane < 3; ++lane) {
-    const double r = std::min(kMost, static_cast<double>(seen.back()[lane])), root = std::sqrt(r);
+    const double r = std::min(kMaxReflectance, static_cast<double>(seen.back()[lane])), root = std::sqrt(r);
     double least = kInfinity;
     for (int place = 0; place <= kPlaces; ++place) {
       const double g = static_cast<double>(place) / kPlaces;

@@ -67,12 +67,12 @@ class PictureTexture final : public Texture {
   }
 
   // A pixel of the rendered picture covers a parallelogram of the parameters; its mean by places that lie no farther
-  // apart than the pixels of the texture, as far as kMostPlaces go.
+  // apart than the pixels of the texture, as far as kMaxPlaces go.
   Spectrum mean_over_pixel(const SurfacePoint& point, const Vec2& p) const {
-    constexpr double kMostPlaces = 16;
+    constexpr double kMaxPlaces = 16;
     const auto [a, b] = covered(point);
     const auto count = [=](const Vec2& side) {
-      return static_cast<int>(std::clamp(std::ceil(glm::length(side)), 1.0, kMostPlaces));
+      return static_cast<int>(std::clamp(std::ceil(glm::length(side)), 1.0, kMaxPlaces));
     };
     const int na = count(a), nb = count(b);
     Spectrum sum;

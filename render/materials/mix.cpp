@@ -72,10 +72,11 @@ std::optional<Fault> fault(const Mix& mix) {
     return Fault{"second", "both materials of the mix have a substance behind them",
                  "mix a clear material with one that is opaque or thin"};
   const int count = MixedMaterial::lobe_count(*mix.first) + MixedMaterial::lobe_count(*mix.second);
-  if (count > LobeList::kMost)
-    return Fault{"second",
-                 fmt::format("the mix has {} lobes, more than the {} that a surface can have", count, LobeList::kMost),
-                 "mix fewer materials, or such of fewer layers"};
+  if (count > LobeList::kMaxLobes)
+    return Fault{
+        "second",
+        fmt::format("the mix has {} lobes, more than the {} that a surface can have", count, LobeList::kMaxLobes),
+        "mix fewer materials, or such of fewer layers"};
   return std::nullopt;
 }
 

@@ -30,8 +30,8 @@ SurfacePoint beside(const SurfacePoint& point, double du, double dv) {
 
 // What the height grows by per unit of a parameter.
 double rise(const Texture& texture, const SurfacePoint& point, const Vec2& along, double speed) {
-  constexpr double kLeastStep = 1e-6;
-  const double step = std::max(0.5 * point.pixel_size, kLeastStep) / speed;
+  constexpr double kMinStep = 1e-6;
+  const double step = std::max(0.5 * point.pixel_size, kMinStep) / speed;
   const SurfacePoint after = beside(point, step * along.x, step * along.y),
                      before = beside(point, -step * along.x, -step * along.y);
   return (grey(texture.at(after)) - grey(texture.at(before))) / (2 * step);
@@ -71,7 +71,7 @@ class DetailedMaterial final : public Material {
     const Spectrum opacity = detail_.opacity.share_at(point, wavelengths), all = whole(wavelengths);
     Scattering s = plain;
     s.lobes = {};
-    // Light goes straight through the holes. They count as a lobe (LobeList::kMost) where there are none, too.
+    // Light goes straight through the holes. They count as a lobe (LobeList::kMaxLobes) where there are none, too.
     s.lobes.add(BoundaryLobe{Spectrum(), all}, all - opacity + Spectrum(1e-20f));
     s.lobes.append(plain.lobes, opacity);
     s.emission = opacity * plain.emission;

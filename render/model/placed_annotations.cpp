@@ -19,8 +19,8 @@ using namespace geometry;
 
 namespace {
 
-constexpr double kMostVisited = 1000;  // placements of one shape that are looked at
-constexpr double kSimilar = 1e-9;      // of the square of the scale
+constexpr double kMaxVisited = 1000;  // placements of one shape that are looked at
+constexpr double kSimilar = 1e-9;     // of the square of the scale
 
 // Whether circles stay circles.
 bool is_similarity(const Mat3& a) {
@@ -102,7 +102,7 @@ Annotation placed(const Annotation& annotation, const std::vector<Object>& objec
     });
     const bool in_solid = itself.count() == 0;
     const PlacedObjects& shown = in_solid ? solids : itself;
-    if (shown.count() == 0 || shown.count() > kMostVisited) continue;
+    if (shown.count() == 0 || shown.count() > kMaxVisited) continue;
     Affine to_world;
     bool as_written = false;
     shown.visit([&](const Object& object, const Affine& map, int) {

@@ -94,7 +94,7 @@ uint32_t second_sobol(uint32_t x) {
 
 // The pixels that share a sequence are a square of 2^8 a side; with 2^16 samples each the sequence's 32 bits are full.
 constexpr int kSquareBits = 8;
-constexpr uint32_t kMostInPicture = 1u << (32 - 2 * kSquareBits);
+constexpr uint32_t kMaxInPicture = 1u << (32 - 2 * kSquareBits);
 
 // Bits of the lower half moved apart: to the even places.
 uint32_t spread(uint32_t x) {
@@ -139,7 +139,7 @@ class StratifiedSampler final : public Sampler {
   }
 
   SampleStream stream(uint32_t x, uint32_t y, int sample) const override {
-    if (sample < samples_ && static_cast<uint32_t>(samples_) <= kMostInPicture)
+    if (sample < samples_ && static_cast<uint32_t>(samples_) <= kMaxInPicture)
       return SampleStream::in_picture(x, y, sample, samples_, seed_);
     return SampleStream(x, y, sample, samples_, seed_);
   }

@@ -78,12 +78,12 @@ Coefficients first_guess(const Eigen::Vector3d& color) {
 
 // Levenberg and Marquardt's damping: steps that lead away from the colour are made shorter.
 Coefficients fitted(const Eigen::Vector3d& color) {
-  constexpr int kMostSteps = 80;
+  constexpr int kMaxSteps = 80;
   constexpr double kNear = 1e-12;  // square of the error of the colour
   Coefficients c = first_guess(color);
   Fit fit = fit_at(c);
   double error = (fit.color - color).squaredNorm(), damping = 1e-3;
-  for (int step = 0; step < kMostSteps && error > kNear; ++step) {
+  for (int step = 0; step < kMaxSteps && error > kNear; ++step) {
     Eigen::Matrix3d normal = fit.slope.transpose() * fit.slope;
     normal.diagonal() *= 1 + damping;
     normal.diagonal().array() += 1e-14;

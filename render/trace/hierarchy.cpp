@@ -187,7 +187,7 @@ void Hierarchy::Parts::build_scene() {
     if (is_target(record)) of_targets += static_cast<size_t>(record->count);
   if (of_targets > kManyPieces) {
     for (const auto& record : records)
-      if (is_target(record)) record->together = geometry::GroupHits::kMostPieces;
+      if (is_target(record)) record->together = geometry::GroupHits::kMaxPieces;
     if (std::none_of(records.begin(), records.end(), is_mesh)) flags |= RTC_SCENE_FLAG_COMPACT;
   }
   rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(flags));

@@ -12,7 +12,7 @@ namespace {
 using Query = Hierarchy::Query;
 
 // Rays that Embree takes at once.
-constexpr size_t kPacket = PacketQuery::kMost;
+constexpr size_t kPacket = PacketQuery::kMaxRays;
 // Rays are taken through the hierarchy together if they begin this near to each other, in radii of the sphere, and
 // their directions differ by no more; else one after the other.
 constexpr float kTogether = 0.1f;

@@ -37,7 +37,7 @@ struct GeometryRecord {
   const geometry::LineTarget* target = nullptr;
   int count = 1;  // pieces of a target, or instances
   // Pieces that follow each other, neighbours mostly, and are one primitive to Embree: two where there are many (at
-  // most GroupHits::kMostPieces).
+  // most GroupHits::kMaxPieces).
   int together = 1;
   int primitive_count() const { return (count + together - 1) / together; }
   int first_piece(unsigned primitive) const { return together * static_cast<int>(primitive); }
@@ -168,11 +168,11 @@ struct Hierarchy::Query {
 
 // Queries of rays that Embree takes at once.
 struct PacketQuery {
-  static constexpr size_t kMost = geometry::LineGroup::kMost;
+  static constexpr size_t kMaxRays = geometry::LineGroup::kMaxLines;
   RTCIntersectContext context;  // first: Embree hands its address back
   geometry::LineGroup lines;
   bool leave;  // some of the rays have left a face or piece
-  std::optional<Hierarchy::Query> queries[kMost];
+  std::optional<Hierarchy::Query> queries[kMaxRays];
 };
 
 // What Embree found for the query: nothing but triangles, which double decides against the nearest of the others.

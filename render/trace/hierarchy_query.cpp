@@ -132,7 +132,7 @@ void test_packet(const void* of, unsigned primitive, const int* valid, PacketQue
   const auto& record = *static_cast<const GeometryRecord*>(of);
   const int first = record.first_piece(primitive), end = record.end_of_pieces(primitive);
   unsigned rest = 0;
-  for (int i = 0; i < geometry::LineGroup::kMost; ++i) rest |= static_cast<unsigned>(valid[i] != 0) << i;
+  for (int i = 0; i < geometry::LineGroup::kMaxLines; ++i) rest |= static_cast<unsigned>(valid[i] != 0) << i;
   if (!record.whole) {
     for (; rest; rest &= rest - 1) {
       const int i = std::countr_zero(rest);
@@ -141,7 +141,7 @@ void test_packet(const void* of, unsigned primitive, const int* valid, PacketQue
     }
     return;
   }
-  unsigned asked[geometry::GroupHits::kMostPieces];
+  unsigned asked[geometry::GroupHits::kMaxPieces];
   for (int piece = first; piece < end; ++piece) {
     asked[piece - first] = rest;
     if (!packet.leave) continue;

@@ -398,7 +398,7 @@ World::World(std::shared_ptr<const Model> model, bool parameters)
 }
 
 void World::list_glows() {
-  constexpr size_t kMostGlows = 1 << 16;
+  constexpr size_t kMaxGlows = 1 << 16;
   std::unordered_map<const Object*, float> brightness;
   for (const Object* object : compiled_->objects) {
     float most = 0;
@@ -413,7 +413,7 @@ void World::list_glows() {
     const Box3 box = top.bounds(i);
     if (found == brightness.end() || box.empty() || !box.bounded()) continue;
     glows_.push_back({i, 0.5 * (box.lo + box.hi), 0.5 * box.diameter() * (1 + 1e-6), found->second});
-    if (glows_.size() > kMostGlows) {
+    if (glows_.size() > kMaxGlows) {
       glows_.clear();
       return;
     }

@@ -89,7 +89,7 @@ class DistanceOracle {
     for (int k = 0; k < count; ++k) grid[k] = distance(place(k));
     std::vector<Place> ends;
     for (int k = 0; k < count; ++k) {
-      if (!is_least_of_grid(grid, k)) continue;
+      if (!is_minimum_of_grid(grid, k)) continue;
       const Place end = descended(place(k));
       const bool known = std::any_of(ends.begin(), ends.end(), [&](const Place& other) {
         double apart = 0;
@@ -120,7 +120,7 @@ class DistanceOracle {
       if (y != x) visit(y);
     }
   }
-  bool is_least_of_grid(const std::vector<double>& grid, int k) const {
+  bool is_minimum_of_grid(const std::vector<double>& grid, int k) const {
     const Place x = place(k);
     bool least = true;
     each_neighbour(x, 1.0 / samples_, [&](const Place& y) {

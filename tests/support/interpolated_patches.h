@@ -75,7 +75,7 @@ namespace detail {
 // Seven: what the ray oracle has room for.
 inline constexpr int kDegree = 7;
 inline constexpr double kAgrees = 1e-11;  // of the size
-inline constexpr int kMostHalvings = 10;
+inline constexpr int kMaxHalvings = 10;
 
 // Whether the patch has the surface's points between those that it was made of.
 inline bool agrees(const Surface& surface, const Surface& patch, const Rectangle& part, double size) {
@@ -96,7 +96,7 @@ inline void add_patches(const Surface& surface, const Rectangle& part, double si
     patches.push_back(patch);
     return;
   }
-  if (halvings == kMostHalvings) throw std::runtime_error("the surface is not smooth enough for patches");
+  if (halvings == kMaxHalvings) throw std::runtime_error("the surface is not smooth enough for patches");
   const double u = part.u.middle(), v = part.v.middle();
   for (const Interval& of_u : {Interval(part.u.lo, u), Interval(u, part.u.hi)})
     for (const Interval& of_v : {Interval(part.v.lo, v), Interval(v, part.v.hi)})

@@ -17,7 +17,7 @@ ordered_json regularity_of_curve(const geometry::Curve& curve) {
   ordered_json out;
   out["regular"] = found.is_regular();
   out["pieces"] = found.pieces;
-  out["least_speed"] = found.least_speed;
+  out["least_speed"] = found.min_speed;
   out["curvature_bound"] = finite_or_null(found.curvature_bound);
   out["singular"] = found.singular;
   return out;
@@ -29,7 +29,7 @@ ordered_json regularity_of_surface(const geometry::Surface& surface) {
   for (const geometry::Rectangle& part : found.singular)
     singular.push_back({{"u", range(part.u)}, {"v", range(part.v)}});
   out["regular"] = found.is_regular();
-  out["least_area"] = found.least_area;
+  out["least_area"] = found.min_area;
   out["singular"] = singular;
   return out;
 }

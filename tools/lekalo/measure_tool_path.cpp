@@ -47,7 +47,7 @@ void put_tool_path(ordered_json& out, const geometry::ToolPath& path) {
   put_lengths(out, path);
   if (facts.scallop_height) out["scallop_height"] = *facts.scallop_height;
   if (facts.bend) {
-    out["least_curvature_difference"] = facts.bend->least_difference;
+    out["least_curvature_difference"] = facts.bend->min_difference;
     out["least_difference_u"] = facts.bend->u;
     out["least_difference_v"] = facts.bend->v;
   }
@@ -60,8 +60,8 @@ void put_tool_path(ordered_json& out, const geometry::ToolPath& path) {
     }
   }
   if (!facts.strip) return;
-  out["strip_width"] = {facts.strip->least_width, facts.strip->greatest_width};
-  out["band_width"] = {facts.strip->least_band, facts.strip->greatest_band};
+  out["strip_width"] = {facts.strip->min_width, facts.strip->max_width};
+  out["band_width"] = {facts.strip->min_band, facts.strip->max_band};
 }
 
 }  // namespace lekalo::command

@@ -11,7 +11,7 @@ namespace lekalo::command {
 
 namespace {
 
-constexpr int kMostParts = 100000;
+constexpr int kMaxParts = 100000;
 
 std::optional<int> whole_number(std::string_view text) {
   int value = 0;
@@ -26,7 +26,7 @@ std::optional<render::PicturePart> parse_part(const std::string& text) {
   const size_t slash = text.find('/');
   const auto number = whole_number(std::string_view(text).substr(0, slash));
   const auto count = slash == std::string::npos ? std::nullopt : whole_number(std::string_view(text).substr(slash + 1));
-  if (!number || !count || *number < 1 || *number > *count || *count > kMostParts)
+  if (!number || !count || *number < 1 || *number > *count || *count > kMaxParts)
     throw UsageError(fmt::format("--tile takes I/N, for example 3/8, with I from 1 to N, found '{}'", text));
   return render::PicturePart{*number - 1, *count};
 }

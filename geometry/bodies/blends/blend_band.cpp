@@ -37,7 +37,7 @@ double side_of_ball(const Body& body, int face, const SurfacePtr& support, const
 // Where a border turned back the sections would cross each other: the contact is beyond a center of curvature.
 void require_forward(const Contacts& contacts, const Interval& domain, const std::string& field) {
   constexpr int kPlaces = 32;
-  constexpr double kLeast = 1e-6;  // of the edge's own pace
+  constexpr double kMinPace = 1e-6;  // of the edge's own pace
   Contact last = contacts.at(domain.lo);
   for (int k = 1; k <= kPlaces; ++k) {
     const double t = domain.lo + domain.width() * k / kPlaces;
@@ -46,7 +46,7 @@ void require_forward(const Contacts& contacts, const Interval& domain, const std
     const double pace = glm::dot(along, along) * domain.width() / kPlaces;
     for (int side = 0; side < 2; ++side) {
       const Vec3 step = here.points[side] - last.points[side];
-      if (glm::dot(step, along) > kLeast * pace) continue;
+      if (glm::dot(step, along) > kMinPace * pace) continue;
       const Vec3& p = here.points[side];
       throw FieldError(field, fmt::format("its border shrinks to a point, or turns back, near [{:.4g}, {:.4g}, {:.4g}]",
                                           p.x, p.y, p.z));

@@ -437,7 +437,7 @@ void renumber(const Divided& divided, std::vector<BlendRequest>& requests, Beyon
 }  // namespace
 
 Stage blended_at_once(const Body& body, const std::vector<BlendRequest>& requests, Corners corners) {
-  constexpr int kMostOverruns = 16;
+  constexpr int kMaxOverruns = 16;
   Body divided_body;
   const Body* now = &body;
   std::vector<BlendRequest> asked = requests;
@@ -447,7 +447,7 @@ Stage blended_at_once(const Body& body, const std::vector<BlendRequest>& request
   try {
     for (int k = 0;; ++k) {
       Blending blending(*now, asked, corners, beyonds);
-      const auto overrun = k < kMostOverruns ? blending.overrun() : std::nullopt;
+      const auto overrun = k < kMaxOverruns ? blending.overrun() : std::nullopt;
       if (!overrun) {
         Stage stage = blending.run();
         std::vector<int> edges;

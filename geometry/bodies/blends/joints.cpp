@@ -40,11 +40,10 @@ struct WayToEdge {
   BandOnCurve met;
 };
 std::optional<WayToEdge> way_to(Surgery& surgery, const BorderPart& first, const HalfEdge& smooth, double near) {
-  constexpr size_t kMostParts = 4;
+  constexpr size_t kMaxParts = 4;
   const Curve& curve = *surgery.body.edges[smooth.edge].curve;
   WayToEdge way;
-  for (std::optional<BorderPart> part = first; part && way.parts.size() < kMostParts;
-       part = next_part(surgery, *part)) {
+  for (std::optional<BorderPart> part = first; part && way.parts.size() < kMaxParts; part = next_part(surgery, *part)) {
     way.parts.push_back(*part);
     const BlendBand& band = surgery.blend(part->half).band;
     const double from = band.ends()[part->half.at_end], to = band.ends()[!part->half.at_end];

@@ -22,10 +22,10 @@ constexpr double kSameDirection = 1e-3;
 
 // The curve as places in its direction, the last left out; fewer of each piece than `parts` where these are many.
 void append_polygon(const DirectedCurve& curve, int parts, std::vector<Vec2>& polygon) {
-  constexpr int kPieces = 4, kLeast = 2;
+  constexpr int kPieces = 4, kMinParts = 2;
   std::vector<double> ts;
   const std::vector<CurvePiece> pieces = curve.image->pieces();
-  parts = std::clamp(kPieces * parts / static_cast<int>(pieces.size()), kLeast, parts);
+  parts = std::clamp(kPieces * parts / static_cast<int>(pieces.size()), kMinParts, parts);
   for (const CurvePiece& piece : pieces)
     for (int k = 0; k < parts; ++k) ts.push_back(piece.domain.lo + piece.domain.width() * k / parts);
   ts.push_back(curve.image->domain().hi);

@@ -36,7 +36,7 @@ class Widths {
 };
 
 // The least area between two angles beside a lower one, by golden sections.
-double least_between(const Widths& widths, double lo, double hi) {
+double min_between(const Widths& widths, double lo, double hi) {
   const double share = 0.5 * (3 - std::sqrt(5.0));
   double a = lo + share * (hi - lo), b = hi - share * (hi - lo), at_a = widths.area(a), at_b = widths.area(b);
   while (hi - lo > kAngle)
@@ -67,7 +67,7 @@ BlankBox blank_box(const Distant& of, const Box3& box, const Vec3& axis) {
     const double before = areas[(k + kTried - 1) % kTried], behind = areas[(k + 1) % kTried];
     // Of what is round all are equal but for rounding, and there is nothing to look for.
     if (areas[k] > std::min(before, behind) || areas[k] > (1 - kEqual) * std::max(before, behind)) continue;
-    const double found = least_between(widths, (k - 1) * step, (k + 1) * step);
+    const double found = min_between(widths, (k - 1) * step, (k + 1) * step);
     take(found, widths.area(found));
   }
   angle -= 0.5 * kPi * std::floor(angle / (0.5 * kPi));

@@ -15,7 +15,7 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr size_t kMostNames = 5;    // in hints
+constexpr size_t kMaxNames = 5;     // in hints
 constexpr double kSameLine = 1e-9;  // of the body's size: what lies so near to an edge is on it
 constexpr double kSameWay = 1e-9;   // radians
 constexpr int kSamples = 16;        // of a smooth piece of an edge
@@ -214,7 +214,7 @@ std::vector<int> all_called(const Body& body, Element element, const std::vector
   for (const std::string& name : names) {
     const std::vector<int> some = called(body, element, name);
     if (some.empty()) {
-      const std::vector<std::string> known = names_of(body, element), nearest = nearest_names(name, known, kMostNames);
+      const std::vector<std::string> known = names_of(body, element), nearest = nearest_names(name, known, kMaxNames);
       throw FieldError(field, fmt::format("the body has no {} '{}'", word(element), name),
                        known.empty()
                            ? "it has none"
@@ -230,9 +230,9 @@ int one_called(const Body& body, Element element, const std::string& name, const
   const std::vector<int> all = all_called(body, element, {name}, field);
   if (all.size() == 1) return all.front();
   std::vector<std::string> names;
-  for (size_t k = 0; k < all.size() && k < kMostNames; ++k) names.push_back(described(body, element, all[k]));
+  for (size_t k = 0; k < all.size() && k < kMaxNames; ++k) names.push_back(described(body, element, all[k]));
   throw FieldError(field, fmt::format("'{}' stands for {} things; one is wanted here", name, all.size()),
-                   fmt::format("they are {}{}", fmt::join(names, ", "), all.size() > kMostNames ? ", ..." : ""));
+                   fmt::format("they are {}{}", fmt::join(names, ", "), all.size() > kMaxNames ? ", ..." : ""));
 }
 
 std::vector<int> faces_beside(const Body& body, int edge) {

@@ -34,9 +34,9 @@ std::vector<double> samples(const Curve& curve, int count = kSamples) {
 
 // For a polygon: fewer of each piece where these are many.
 std::vector<double> polygon_samples(const Curve& curve, int count) {
-  constexpr int kPieces = 4, kLeast = 2;  // as many points as that many pieces have
+  constexpr int kPieces = 4, kMinPoints = 2;  // as many points as that many pieces have
   const int pieces = static_cast<int>(curve.pieces().size());
-  return samples(curve, std::clamp(kPieces * count / pieces, std::min(kLeast, count), count));
+  return samples(curve, std::clamp(kPieces * count / pieces, std::min(kMinPoints, count), count));
 }
 
 // Whether a curve is short beside its bend: its chord stands for it.

@@ -163,14 +163,17 @@ bool crosses_right(Part part, bool begins_below, double u, double v) {
 
 // An arc that is not monotone after so many halvings is a point or an extremum narrower than the rounding of its ends.
 constexpr int kDeepestCut = 40;
+// Nor are arcs cut that are no higher than this share of their loop: of an arc along a parameter line the slope may be
+// nothing but rounding.
+constexpr double kLevel = 1e-13;
 
 template <class Part, class Add>
-void cut_to_monotone(const Part& part, int depth, Add&& add) {
-  if (part.is_monotone() || depth == kDeepestCut) return add(part);
+void cut_to_monotone(const Part& part, double level, int depth, Add&& add) {
+  if (part.is_monotone() || depth == kDeepestCut || part.box().v.width() <= level) return add(part);
   Part first, second;
   part.halve(first, second);
-  cut_to_monotone(first, depth + 1, add);
-  cut_to_monotone(second, depth + 1, add);
+  cut_to_monotone(first, level, depth + 1, add);
+  cut_to_monotone(second, level, depth + 1, add);
 }
 
 // Cells with so few arcs and turns are not cut.
@@ -188,16 +191,19 @@ class TrimRegion::Building {
 
   void add_loop(const std::vector<Part>& loop) {
     const size_t first = arcs_.size();
+    Interval heights{kInfinity, -kInfinity};
+    for (const Part& part : loop) heights = hull(heights, along(bounds(*part.curve), 1));
+    const double level = heights.width() < kInfinity ? kLevel * heights.width() : 0;
     for (const Part& part : loop) {
       const size_t begin = arcs_.size();
       for (const CurvePiece& piece : part.curve->pieces()) {
         if (piece.is_rational()) {
-          cut_to_monotone(BezierPart(Points(piece.points)), 0, [&](const BezierPart& cut) {
+          cut_to_monotone(BezierPart(Points(piece.points)), level, 0, [&](const BezierPart& cut) {
             const Points points = cut.is_monotone() ? cut.points() : cut.chord().points();
             add({{points.begin(), points.end()}, nullptr}, cut.box(), cut.begin().y, cut.end().y);
           });
         } else {
-          cut_to_monotone(CurvePart(part.curve.get(), piece.domain), 0, [&](const CurvePart& cut) {
+          cut_to_monotone(CurvePart(part.curve.get(), piece.domain), level, 0, [&](const CurvePart& cut) {
             add({{}, part.curve, cut.t()}, cut.box(), cut.begin().y, cut.end().y);
           });
         }

@@ -20,7 +20,7 @@ namespace {
 // for weights such as 1 + t^2.
 constexpr double kWidest = 2;
 // Halvings of a span for bounds of the weight that keep away from 0.
-constexpr int kMostHalvings = 8;
+constexpr int kMaxHalvings = 8;
 
 class RationalCurve {
  public:
@@ -40,7 +40,7 @@ class RationalCurve {
     const Interval bounds = weight_(t).x;
     if (bounds.lo > 0) return 1;
     if (bounds.hi < 0) return -1;
-    if (halvings == kMostHalvings) return 0;
+    if (halvings == kMaxHalvings) return 0;
     const int below = sign_of_weight({t.lo, t.middle()}, halvings + 1);
     return below != 0 && below == sign_of_weight({t.middle(), t.hi}, halvings + 1) ? below : 0;
   }
@@ -96,7 +96,7 @@ class RationalCurve {
 };
 
 // Quarter turns: more of them are no figure, and a form of many thousand spans serves nobody.
-constexpr int kMostSpans = 4096;
+constexpr int kMaxSpans = 4096;
 
 // Ends of spans, from lo to hi.
 std::vector<double> span_ends(const Interval& s, bool is_of_angles) {
@@ -126,7 +126,7 @@ std::optional<RationalForm> rational_form(const PointFormulas& point, const Rati
   RationalForm result{{degree, {s.lo}, {}, {}}, curve.speed()};
   NurbsCurveForm& form = result.form;
   const bool is_polynomial = curve.has_one_weight(domain);
-  if (!is_polynomial && curve.is_of_angles() && s.width() > 0.5 * kPi * kMostSpans) return std::nullopt;
+  if (!is_polynomial && curve.is_of_angles() && s.width() > 0.5 * kPi * kMaxSpans) return std::nullopt;
   const std::vector<double> ends = is_polynomial ? std::vector<double>{s.lo, s.hi} : span_ends(s, curve.is_of_angles());
   for (size_t k = 0; k + 1 < ends.size(); ++k) {
     std::vector<Vec4> points = curve.points({ends[k], ends[k + 1]}, sign);

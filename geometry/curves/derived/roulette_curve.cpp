@@ -17,7 +17,7 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr double kFlat = 1e-9;  // of the size
-constexpr int kMostTurns = 1000;
+constexpr int kMaxTurns = 1000;
 
 // A curve by its arc length, again and again if it is closed.
 struct Track {
@@ -120,7 +120,7 @@ TypeDeclaration roulette_curve_type() {
                           Vec3(0)};
         roulette.point = f.has("point") ? f.vec3("point") : rolling->point(rolling->domain().lo);
         if (turns > 1 && !on->is_closed()) throw FieldError("turns", "the curve that rests is not closed");
-        if (turns > kMostTurns) throw FieldError("turns", fmt::format("there are at most {} turns", kMostTurns));
+        if (turns > kMaxTurns) throw FieldError("turns", fmt::format("there are at most {} turns", kMaxTurns));
         const double length = turns * roulette.fixed.length;
         if (!of->is_closed() && length > roulette.moving.length * (1 + 1e-9))
           throw FieldError("of",

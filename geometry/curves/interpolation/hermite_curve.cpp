@@ -80,8 +80,7 @@ std::vector<Vec3> unit_directions(const std::vector<Vec3>& vectors, int points) 
 }
 
 std::vector<Vec3> with_speeds(const PointSequence& data, std::vector<Vec3> directions, const std::string& rule) {
-  const std::vector<double> speeds =
-      rule == "least_energy" ? least_energy_speeds(data, directions) : local_speeds(data);
+  const std::vector<double> speeds = rule == "least_energy" ? min_energy_speeds(data, directions) : local_speeds(data);
   for (int i = 0; i < data.size(); ++i) {
     if (!(speeds[i] > 0))
       throw FieldError("speeds", fmt::format("at point {} the derivative would not go along its direction", i),

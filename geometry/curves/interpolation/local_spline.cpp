@@ -111,11 +111,11 @@ std::vector<Vec3> local_means(const PointSequence& data, std::span<const double>
 
 namespace {
 
-int least_points(int order, bool closed) { return order == 2 || closed ? 3 : 4; }
+int min_points(int order, bool closed) { return order == 2 || closed ? 3 : 4; }
 
 // Parameters where so many pieces meet, with both ends of the range.
 std::vector<double> coarse_knots(const PointSequence& data, int spans, int order) {
-  const int values = spans + (data.closed ? 0 : 1), needed = least_points(order, data.closed);
+  const int values = spans + (data.closed ? 0 : 1), needed = min_points(order, data.closed);
   if (values < needed)
     throw FieldError("spans",
                      fmt::format("{} spans have {} values where they meet; {} are needed", spans, values, needed),
@@ -129,7 +129,7 @@ std::vector<double> coarse_knots(const PointSequence& data, int spans, int order
 }  // namespace
 
 NurbsCurve local_spline(const PointSequence& data, int order) {
-  const int needed = least_points(order, data.closed);
+  const int needed = min_points(order, data.closed);
   if (data.size() < needed)
     throw FieldError("points", fmt::format("a local spline of order {} needs at least {} points, not {}", order, needed,
                                            data.size()));

@@ -215,7 +215,7 @@ std::vector<double> local_speeds(const PointSequence& data) {
 }
 
 // Each span adds 4/h (g0^2 + g0 g1 T0.T1 + g1^2) - 12/h^2 (g0 c.T0 + g1 c.T1) with its chord c and step h.
-std::vector<double> least_energy_speeds(const PointSequence& data, std::span<const Vec3> directions) {
+std::vector<double> min_energy_speeds(const PointSequence& data, std::span<const Vec3> directions) {
   const int count = data.size(), spans = data.closed ? count : count - 1;
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(count);

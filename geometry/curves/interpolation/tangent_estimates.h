@@ -44,6 +44,6 @@ std::vector<Vec3> estimated_tangents(const std::string& estimate, const PointSeq
 std::vector<double> local_speeds(const PointSequence& data);
 // Those of the smallest integral of r''^2 over the composite Hermite cubic (the same, II.5). They may be negative where
 // a direction turns away from the chords.
-std::vector<double> least_energy_speeds(const PointSequence& data, std::span<const Vec3> directions);
+std::vector<double> min_energy_speeds(const PointSequence& data, std::span<const Vec3> directions);
 
 }  // namespace lekalo::geometry

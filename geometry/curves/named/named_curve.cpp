@@ -13,7 +13,7 @@ namespace {
 
 using Constants = std::vector<Expression::Constant>;
 
-constexpr int kMostTurns = 1000;
+constexpr int kMaxTurns = 1000;
 constexpr double kWhole = 1e-9;
 
 // Each name once, in the order of the collection.
@@ -39,7 +39,7 @@ std::string list_of_presets() {
 
 // The least q with b/a = p/q; 0 where there is none.
 int turns(double a, double b) {
-  for (int q = 1; q <= kMostTurns; ++q)
+  for (int q = 1; q <= kMaxTurns; ++q)
     if (std::abs(b / a * q - std::round(b / a * q)) <= kWhole) return q;
   return 0;
 }

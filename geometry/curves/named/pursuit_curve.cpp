@@ -22,7 +22,7 @@ constexpr int kSteps = 20000;             // at least
 constexpr double kStepByDistance = 2e-3;  // the pursuer goes no more of the distance in a step
 constexpr double kCaught = 1e-9;          // of the first distance
 constexpr double kTolerance = 1e-11;      // of the size
-constexpr int kMostSteps = 2000000;
+constexpr int kMaxSteps = 2000000;
 
 struct Node {
   double t;
@@ -61,7 +61,7 @@ class Chase {
       const double distance = glm::length(prey_.point(now.t) - now.point);
       if (distance <= caught) return false;
       if (now.t >= piece.hi) return true;
-      if (nodes_.size() > kMostSteps)
+      if (nodes_.size() > kMaxSteps)
         throw FieldError("start", "the pursuer keeps so near to its prey that its path cannot be computed",
                          "let it begin farther away, or take a shorter part of the prey's path");
       const double speed = glm::length(now.velocity) * (1 + ratio_),

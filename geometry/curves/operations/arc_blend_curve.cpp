@@ -16,7 +16,7 @@ namespace lekalo::geometry {
 namespace {
 
 // Segments tried for a tolerance, each time twice as many.
-constexpr int kMostSegments = 1 << 14;
+constexpr int kMaxSegments = 1 << 14;
 // Cosine of half an arc's angle: nearer to a half circle its ends are too steep over the chord.
 constexpr double kHalfCircle = 1e-5;
 // Sine of the angle between tangents of neighbouring pieces that are one.
@@ -129,14 +129,14 @@ ArcBlendCurve through_curve(const Curve& curve, const ArcFraction& lengths, int 
 }
 
 ArcBlendCurve within(const Curve& curve, const ArcFraction& lengths, double tolerance) {
-  for (int count = 4; count <= kMostSegments; count *= 2) {
+  for (int count = 4; count <= kMaxSegments; count *= 2) {
     try {
       ArcBlendCurve result = through_curve(curve, lengths, count);
       if (result.bounds() && result.bounds()->position <= tolerance) return result;
     } catch (const FieldError&) {  // arcs of a half circle: too few
     }
   }
-  throw FieldError("tolerance", fmt::format("{} segments are not enough for {:.3g}", kMostSegments, tolerance),
+  throw FieldError("tolerance", fmt::format("{} segments are not enough for {:.3g}", kMaxSegments, tolerance),
                    "ask for less, or cut the curve at its corners");
 }
 
@@ -305,7 +305,7 @@ TypeDeclaration arc_blend_curve_type() {
       .optional("of", reference({Category::curve}),
                 "a smooth curve whose points are the nodes instead, evenly spaced in length; `lekalo measure` then "
                 "tells how far the interpolant may be from it")
-      .optional("count", integer().between(2, kMostSegments), "of segments, with `of`")
+      .optional("count", integer().between(2, kMaxSegments), "of segments, with `of`")
       .optional(
           "tolerance", length().positive(),
           "as many segments, 4, 8, 16 .., as make the bound on the distance from the curve at most this, with `of`")

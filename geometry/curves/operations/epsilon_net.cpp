@@ -15,7 +15,7 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr int kMostPoints = 1000000;
+constexpr int kMaxPoints = 1000000;
 constexpr double kRounding = 1e-12;
 
 NurbsCurve net_of(const Curve& curve, double epsilon) {
@@ -23,9 +23,9 @@ NurbsCurve net_of(const Curve& curve, double epsilon) {
   const ArcFraction lengths(curve);
   // A length that is a multiple of 2 epsilon but for rounding is one.
   const double parts = std::max(closed ? 3.0 : 1.0, std::ceil(lengths.length() / (2 * epsilon) * (1 - kRounding)));
-  if (parts > kMostPoints)
+  if (parts > kMaxPoints)
     throw FieldError("epsilon", fmt::format("a curve of length {:.6g} needs {:.3g} points", lengths.length(), parts),
-                     fmt::format("at most {} are made", kMostPoints));
+                     fmt::format("at most {} are made", kMaxPoints));
   std::vector<Vec3> points;
   for (const double t : parameters_at_even_lengths(lengths, curve.domain(), static_cast<int>(parts)))
     points.push_back(curve.point(t));

@@ -17,8 +17,8 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr int kDegree = 5;
-constexpr int kMostHalvings = 14;  // of a smooth piece
-constexpr int kPlaces = 9;         // where a span is compared with its curve
+constexpr int kMaxHalvings = 14;  // of a smooth piece
+constexpr int kPlaces = 9;        // where a span is compared with its curve
 
 // Bezier points over [a, b] with the curve's points and derivatives there (Golovanov 2016, 2.4):
 //   p_1 = p_0 + h r'/5,  p_2 = 2 p_1 - p_0 + h^2 r''/20, and so from the end.
@@ -105,7 +105,7 @@ class Fit {
       spans_.push_back({t, points, t.lo > piece_.lo});
       return;
     }
-    if (halvings == kMostHalvings)
+    if (halvings == kMaxHalvings)
       throw std::invalid_argument(
           fmt::format("near t = {} a fit stays {:.2g} away from the curve", t.middle(), largest));
     const CurveJet middle = jet(t.middle());

@@ -27,7 +27,7 @@ struct HausdorffDistance : Nearness {
 // Both throw std::invalid_argument for a curve that is unbounded or jumps. Branch and bound: a part of a curve is left
 // out where its farthest possible point is not above the farthest seen, by the enclosures of A(t) - B(s(t)) about a
 // foot point; with so many parts of each curve, at most.
-HausdorffDistance hausdorff_distance(const CurvePtr& a, const CurvePtr& b, int most_parts = 30000);
+HausdorffDistance hausdorff_distance(const CurvePtr& a, const CurvePtr& b, int max_parts = 30000);
 
 // By the free-space diagram of polylines (Alt, Godau 1995) whose deviation from the curves, bounded by h^2/8 |r''|, is
 // added; made finer until the bracket is narrow.

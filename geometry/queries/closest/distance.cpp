@@ -263,7 +263,7 @@ class DistanceQuery {
       if (pair.a->dimension == 2 || !has_two_parameters(minimum.a)) minimum.range_a = ranges[0];
       if (pair.b->dimension == 2 || !has_two_parameters(minimum.b)) minimum.range_b = ranges[1];
     }
-    if (!is_least_beside(pair, a, b, size_, minimum)) return;
+    if (!is_minimum_beside(pair, a, b, size_, minimum)) return;
     keep(std::move(found));
   }
 

@@ -102,8 +102,8 @@ bool meets_beside(const std::vector<DistanceStep>& from_a, const std::vector<Dis
 
 }  // namespace
 
-bool is_least_beside(const ElementPair& pair, const ElementPlace& a, const ElementPlace& b, double size,
-                     DistanceMinimum& minimum) {
+bool is_minimum_beside(const ElementPair& pair, const ElementPlace& a, const ElementPlace& b, double size,
+                       DistanceMinimum& minimum) {
   const std::vector<DistanceStep> from_a = steps(*pair.a, a), from_b = steps(*pair.b, b);
   if (minimum.distance <= kIntersection * size) {
     if (!from_a.empty() && !from_b.empty() && meets_beside(from_a, from_b, size)) minimum.isolated = false;

@@ -7,7 +7,7 @@ namespace lekalo::geometry {
 
 // True where the distance grows into the elements beside `a` and `b`. Level to first order, it is compared a little way
 // off; where it stays the same there the minimum is set to be not isolated.
-bool is_least_beside(const ElementPair& pair, const ElementPlace& a, const ElementPlace& b, double size,
-                     DistanceMinimum& minimum);
+bool is_minimum_beside(const ElementPair& pair, const ElementPlace& a, const ElementPlace& b, double size,
+                       DistanceMinimum& minimum);
 
 }  // namespace lekalo::geometry

@@ -10,8 +10,8 @@ namespace lekalo::geometry {
 namespace {
 
 // Points of a polyline, at most; halvings of a smooth piece.
-constexpr size_t kMostPoints = 40000, kManyPoints = 8000;  // with so many it is not made finer
-constexpr int kMostHalvings = 40;
+constexpr size_t kMaxPoints = 40000, kManyPoints = 8000;  // with so many it is not made finer
+constexpr int kMaxHalvings = 40;
 
 struct Polyline {
   std::vector<Vec3> points;
@@ -30,7 +30,7 @@ double chord_deviation(const Curve& curve, const Interval& t) {
 
 void add_parts(const Curve& curve, const Interval& t, double wanted, int halvings, Polyline& line) {
   const double deviation = chord_deviation(curve, t), middle = t.middle();
-  if (deviation > wanted && halvings < kMostHalvings && line.points.size() < kMostPoints && t.lo < middle &&
+  if (deviation > wanted && halvings < kMaxHalvings && line.points.size() < kMaxPoints && t.lo < middle &&
       middle < t.hi) {
     add_parts(curve, {t.lo, middle}, wanted, halvings + 1, line);
     add_parts(curve, {middle, t.hi}, wanted, halvings + 1, line);

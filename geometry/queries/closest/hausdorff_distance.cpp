@@ -31,7 +31,7 @@ Box3 over(const Box3& a, double k, const Box3& b) {  // a - k b
 // Farthest points of a curve from another.
 class Search {
  public:
-  Search(const Curve& a, const CurvePtr& b, int most_parts) : a_(a), b_(*b), projector_(b), most_parts_(most_parts) {}
+  Search(const Curve& a, const CurvePtr& b, int max_parts) : a_(a), b_(*b), projector_(b), max_parts_(max_parts) {}
 
   struct Found {
     double lower = 0, upper = 0, t = 0;
@@ -43,7 +43,7 @@ class Search {
     for (const CurvePiece& piece : a_.pieces()) add(piece.domain, kInfinity, look_at(piece.domain.middle()).t, good);
     for (const double t : {a_.domain().lo, a_.domain().hi}) look_at(t);
     int parts = 0;
-    while (!parts_.empty() && parts_.top().upper > enough(good) && ++parts < most_parts_) {
+    while (!parts_.empty() && parts_.top().upper > enough(good) && ++parts < max_parts_) {
       const Part part = parts_.top();
       parts_.pop();
       const double middle = part.t.middle();
@@ -136,7 +136,7 @@ class Search {
   const Curve& a_;
   const Curve& b_;
   CurveProjector projector_;
-  int most_parts_;
+  int max_parts_;
   std::priority_queue<Part> parts_;
   Found found_;
   double rest_ = 0;  // of parts that are not halved further
@@ -144,11 +144,11 @@ class Search {
 
 }  // namespace
 
-HausdorffDistance hausdorff_distance(const CurvePtr& a, const CurvePtr& b, int most_parts) {
+HausdorffDistance hausdorff_distance(const CurvePtr& a, const CurvePtr& b, int max_parts) {
   demand_continuous(*a), demand_continuous(*b);
   const double small = kSmall * std::max(bounds(*a).diameter(), bounds(*b).diameter());
-  const Search::Found of_a = Search(*a, b, most_parts).run(small),
-                      of_b = Search(*b, a, most_parts).run(std::max(small, of_a.lower));
+  const Search::Found of_a = Search(*a, b, max_parts).run(small),
+                      of_b = Search(*b, a, max_parts).run(std::max(small, of_a.lower));
   const bool first = of_a.lower >= of_b.lower;
   const Search::Found& far = first ? of_a : of_b;
   HausdorffDistance result;

@@ -21,7 +21,7 @@ constexpr double kSmallestTight = 0x1p-16;
 // Of the largest speed or area: less is rounding, that of a pole whose parameter is written in decimals.
 constexpr double kVanishes = 1e-12;
 
-double least_length(const Box3& box) {
+double min_length(const Box3& box) {
   double sum = 0;
   for (int k = 0; k < 3; ++k) {
     const Interval x = along(box, k);
@@ -40,13 +40,13 @@ class CurveSearch {
   explicit CurveSearch(const Curve& curve) : curve_(curve) {}
 
   CurveRegularity run() {
-    result_.least_speed = kInfinity;
+    result_.min_speed = kInfinity;
     for (const CurvePiece& piece : curve_.pieces()) {
       ++result_.pieces;
       for (int k = 0; k <= 64; ++k) sample(piece.domain, piece.domain.lo + piece.domain.width() * k / 64);
       look(piece.domain, piece.domain);
     }
-    if (!result_.is_regular()) result_.least_speed = 0, result_.curvature_bound = kInfinity;
+    if (!result_.is_regular()) result_.min_speed = 0, result_.curvature_bound = kInfinity;
     return result_;
   }
 
@@ -57,18 +57,18 @@ class CurveSearch {
     if (!(speed > 0)) return;
     slowest_ = std::min(slowest_, speed);
     fastest_ = std::max(fastest_, speed);
-    most_bent_ = std::max(most_bent_, glm::length(glm::cross(jet.d[1], jet.d[2])) / (speed * speed * speed));
+    max_bent_ = std::max(max_bent_, glm::length(glm::cross(jet.d[1], jet.d[2])) / (speed * speed * speed));
   }
 
   void look(const Interval& piece, const Interval& t) {
     const CurveEnclosure box = curve_.enclose(t, 2);
-    const double speed = least_length(box.d[1]);
+    const double speed = min_length(box.d[1]);
     const double bend = greatest_length(box_of(cross(triple(box.d[1]), triple(box.d[2])))) / (speed * speed * speed);
     const bool is_proven = speed > kVanishes * fastest_;
-    const bool is_tight = speed * kTight >= slowest_ && bend <= kTight * most_bent_ + 1e-12 / curve_size();
+    const bool is_tight = speed * kTight >= slowest_ && bend <= kTight * max_bent_ + 1e-12 / curve_size();
     const double share = t.width() / piece.width();
     if (is_proven && (is_tight || share <= kSmallestTight || ++parts_ > kPartsForBounds)) {
-      result_.least_speed = std::min(result_.least_speed, speed);
+      result_.min_speed = std::min(result_.min_speed, speed);
       result_.curvature_bound = std::max(result_.curvature_bound, bend);
     } else if (share <= kSmallestPart || !(t.lo < t.middle() && t.middle() < t.hi)) {
       add_singular(piece, t.middle());
@@ -90,7 +90,7 @@ class CurveSearch {
 
   const Curve& curve_;
   CurveRegularity result_;
-  double slowest_ = kInfinity, fastest_ = 0, most_bent_ = 0, size_ = 0;
+  double slowest_ = kInfinity, fastest_ = 0, max_bent_ = 0, size_ = 0;
   int parts_ = 0;
 };
 
@@ -99,7 +99,7 @@ class SurfaceSearch {
   explicit SurfaceSearch(const Surface& surface) : surface_(surface) {}
 
   SurfaceRegularity run() {
-    result_.least_area = kInfinity;
+    result_.min_area = kInfinity;
     const Rectangle domain = surface_.domain();
     for (int i = 0; i <= 16; ++i)
       for (int j = 0; j <= 16; ++j) {
@@ -110,17 +110,17 @@ class SurfaceSearch {
         largest_ = std::max(largest_, area);
       }
     for (const SurfacePiece& piece : surface_.pieces()) look(piece.domain, piece.domain);
-    if (!result_.is_regular()) result_.least_area = 0;
+    if (!result_.is_regular()) result_.min_area = 0;
     return result_;
   }
 
  private:
   void look(const Rectangle& piece, const Rectangle& part) {
     const SurfaceEnclosure box = surface_.enclose(part, 1);
-    const double area = least_length(box_of(cross(triple(box.d(1, 0)), triple(box.d(0, 1)))));
+    const double area = min_length(box_of(cross(triple(box.d(1, 0)), triple(box.d(0, 1)))));
     const double share = part.u.width() / piece.u.width();
     if (area > kVanishes * largest_ && (area * 1.1 >= smallest_ || share <= 1.0 / 64)) {
-      result_.least_area = std::min(result_.least_area, area);
+      result_.min_area = std::min(result_.min_area, area);
       return;
     }
     if (share <= kSmallestSide) return add_singular(part);

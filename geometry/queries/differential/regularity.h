@@ -14,7 +14,7 @@ namespace lekalo::geometry {
 
 struct CurveRegularity {
   int pieces = 0;                // smooth ones; the tangent may turn abruptly between them
-  double least_speed = 0;        // |r'| is nowhere smaller, proven; 0 where it may vanish
+  double min_speed = 0;          // |r'| is nowhere smaller, proven; 0 where it may vanish
   double curvature_bound = 0;    // |r' x r''| / |r'|^3 is nowhere larger, proven; infinite where the speed may vanish
   std::vector<double> singular;  // parameters where the speed may vanish, each for all beside it
   bool is_regular() const { return singular.empty(); }
@@ -23,7 +23,7 @@ struct CurveRegularity {
 CurveRegularity regularity(const Curve& curve);
 
 struct SurfaceRegularity {
-  double least_area = 0;            // |r_u x r_v| is nowhere smaller, proven; 0 where it may vanish
+  double min_area = 0;              // |r_u x r_v| is nowhere smaller, proven; 0 where it may vanish
   std::vector<Rectangle> singular;  // parts of the domain where it may vanish, neighbouring ones together
   bool is_regular() const { return singular.empty(); }
 };

@@ -238,7 +238,7 @@ Vec3 LastBit::point(const Vec3& from, const Vec3& to, double share) const {
 std::optional<Vec3> Collector::singular_point(const Box3& box) const {
   constexpr int kMaxSteps = 12;
   Vec3 p = box.center();
-  const double reach = box.diameter() + kLeast * size_;
+  const double reach = box.diameter() + kMinBox * size_;
   for (int step = 0; step < kMaxSteps; ++step) {
     const SecondOrder<double> f = second_order(formula_, p);
     root_search::Matrix<3> inverse;

@@ -16,7 +16,7 @@ namespace implicit_arc {
 
 // Of the region's diameter: boxes as small may stay undecided, and what their hulls may be without something being
 // missing.
-inline constexpr double kLeast = 1e-6, kLargeOpen = 1e-3;
+inline constexpr double kMinBox = 1e-6, kLargeOpen = 1e-3;
 inline constexpr double kBorder = 1e-12;  // of the domain's sides
 inline constexpr int kMaxBoxes = 40000;
 
@@ -60,7 +60,7 @@ class Collector {
   ImplicitArcs find(const System& system, const ParameterBox<System::kUnknowns>& domain) {
     constexpr int N = System::kUnknowns;
     SolutionCurveOptions<N> options;
-    options.least = kLeast * size_;
+    options.least = kMinBox * size_;
     options.max_boxes = kMaxBoxes;
     options.divides_hard_boxes = true;
     options.rounding = system.rounding();

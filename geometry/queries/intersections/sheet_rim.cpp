@@ -14,7 +14,7 @@ namespace lekalo::geometry {
 namespace {
 
 // Vertices on all of the curve, at first and at most.
-constexpr int kFirst = 96, kMost = 768;
+constexpr int kFirst = 96, kMaxPlaces = 768;
 // A triangle below this part of the square of the size has no orientation.
 constexpr double kThin = 1e-13;
 
@@ -140,7 +140,7 @@ SheetRim sheet_rim(const Curve& curve, const std::optional<std::pair<double, dou
   }
   SheetRim result;
   result.crossings = static_cast<int>(own.points.size());
-  for (int count = kFirst; count <= kMost; count *= 2) {
+  for (int count = kFirst; count <= kMaxPlaces; count *= 2) {
     const std::vector<double> at = parameters(curve, count, places);
     const auto in_plane = [&](const Vec3& p) { return Vec2(glm::dot(p, frame.x), glm::dot(p, frame.y)); };
     std::vector<Vec2> points, along;  // along: from the first end of the chord to the second

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kPlaces = 400;       // of a smooth piece, where vertices are searched for
 constexpr double kNarrow = 1e-7;   // parts of a piece are not divided further
-constexpr int kMostParts = 20000;  // a function that may vanish in more does so all along
+constexpr int kMaxParts = 20000;   // a function that may vanish in more does so all along
 constexpr double kFlat = 1e-9;     // of the size, from a plane
 constexpr double kNoSpeed = 1e-9;  // of the largest speed of a piece
 constexpr double kBeside = 1e-5;   // of a piece, where the sides of a joint are looked at
@@ -43,7 +43,7 @@ std::vector<Interval> undecided(const RangeOf& range, const Interval& piece) {
       for (const Interval& half : {Interval(part.lo, part.middle()), Interval(part.middle(), part.hi)})
         if (const Interval values = range(half); !(values.lo > 0 || values.hi < 0)) next.push_back(half);
     parts.swap(next);
-    if (static_cast<int>(parts.size()) > kMostParts) return {};
+    if (static_cast<int>(parts.size()) > kMaxParts) return {};
   }
   for (size_t i = 1; i < parts.size();) {  // neighbours are one
     if (parts[i].lo > parts[i - 1].hi) {

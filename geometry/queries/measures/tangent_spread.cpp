@@ -10,7 +10,7 @@ namespace lekalo::geometry {
 namespace {
 
 // Places of the curve from which the search begins, and of a piece.
-constexpr int kPlaces = 2048, kLeastPlaces = 8, kPlacesOfPiece = 256;
+constexpr int kPlaces = 2048, kMinPlaces = 8, kPlacesOfPiece = 256;
 // Halvings of the step by which the best pair is searched further.
 constexpr int kHalvings = 45;
 
@@ -33,7 +33,7 @@ double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(glm::leng
 TangentSpread tangent_spread(const Curve& curve) {
   if (!(curve.domain().width() < kInfinity)) throw std::invalid_argument("the curve is unbounded");
   const std::vector<CurvePiece> pieces = curve.pieces();
-  const int count = std::clamp(kPlaces / static_cast<int>(pieces.size()), kLeastPlaces, kPlacesOfPiece);
+  const int count = std::clamp(kPlaces / static_cast<int>(pieces.size()), kMinPlaces, kPlacesOfPiece);
   std::vector<Place> places;  // in the order of t
   for (const CurvePiece& piece : pieces)
     for (int i = 0; i <= count; ++i) {

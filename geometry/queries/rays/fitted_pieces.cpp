@@ -20,13 +20,13 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr int kNodes = 8;  // degree 7
-constexpr int kMostParts = 8;
+constexpr int kMaxParts = 8;
 // From so many on what is near enough is not cut for the sake of a tenth of that.
-constexpr size_t kManyPatches = 1024, kMostPatches = 16384;
+constexpr size_t kManyPatches = 1024, kMaxPatches = 16384;
 // Parts of a smooth surface gain more. Parts that do not, twice in a row, are beside a place that is not smooth, or
 // rounding is all that is left.
-constexpr double kLeastGain = 4;
-constexpr int kMostMisses = 2;
+constexpr double kMinGain = 4;
+constexpr int kMaxMisses = 2;
 // What rounding leaves of a patch, in parts of kFitDistance.
 constexpr double kRounding = 0.01;
 
@@ -83,7 +83,7 @@ struct Fit {
   bool is_near(double tolerance) const { return off_u <= tolerance && off_v <= tolerance; }
   // Finer parts are no better.
   bool misses_again(double tolerance) const {
-    const auto gains = [&](double off, double before) { return off <= tolerance || off * kLeastGain <= before; };
+    const auto gains = [&](double off, double before) { return off <= tolerance || off * kMinGain <= before; };
     return !gains(off_u, before_u) || !gains(off_v, before_v);
   }
 };
@@ -167,7 +167,7 @@ int parts(double off, double tolerance, int most) {
 }
 
 void divide(const Fit& whole, double tolerance, std::vector<Fit>& result) {
-  const int most = whole.misses > 0 ? 2 : kMostParts;
+  const int most = whole.misses > 0 ? 2 : kMaxParts;
   const int across_u = parts(whole.off_u, tolerance, most), across_v = parts(whole.off_v, tolerance, most);
   const auto part = [](const Interval& range, int k, int count) -> Interval {
     const auto at = [&](int i) { return i == count ? range.hi : range.lo + range.width() * i / count; };
@@ -222,7 +222,7 @@ FittedPieces fitted_pieces(const Surface& surface, const std::vector<Rectangle>&
         add(one);
         continue;
       }
-      if (one.misses > kMostMisses || count > kMostPatches)
+      if (one.misses > kMaxMisses || count > kMaxPatches)
         result.rest.push_back(one.box);
       else
         divide(one, tolerance, next);

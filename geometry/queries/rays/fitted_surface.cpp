@@ -270,7 +270,7 @@ class FittedSurface final : public Surface {
       return;
     }
     const auto widened = [](const Interval& of, const Interval& whole) -> Interval {
-      const double least = kLeastShare * whole.width();
+      const double least = kMinShare * whole.width();
       if (of.width() >= least) return of;
       const double lo = std::clamp(of.middle() - 0.5 * least, whole.lo, whole.hi - least);
       return {lo, lo + least};
@@ -286,7 +286,7 @@ class FittedSurface final : public Surface {
 
   // Differences of points nearer to each other would be rounding: below this share of a patch in each parameter the
   // derivatives are taken over more, and what is lower is narrowed by mean values.
-  static constexpr double kLeastShare = 1.0 / 16;
+  static constexpr double kMinShare = 1.0 / 16;
 
   SurfacePtr original_;
   std::vector<Patch> patches_;

@@ -13,11 +13,11 @@ namespace {
 
 using Numbers = LineGroup::Numbers;
 using Vectors = LineGroup::Vectors;
-constexpr int kMost = LineGroup::kMost;
+constexpr int kMaxLines = LineGroup::kMaxLines;
 
 // PreparedLine's parts of the directions of all lines.
 LEKALO_WIDE void split(const Vectors& direction, Vectors& upper, Vectors& lower, Numbers& inverse_length2) {
-  for (int i = 0; i < kMost; ++i) {
+  for (int i = 0; i < kMaxLines; ++i) {
     const double d[3] = {direction[0][i], direction[1][i], direction[2][i]};
     inverse_length2[i] = 1 / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     for (int k = 0; k < 3; ++k) {
@@ -30,7 +30,7 @@ LEKALO_WIDE void split(const Vectors& direction, Vectors& upper, Vectors& lower,
 // LineBasis of all lines.
 LEKALO_WIDE void make_bases(const Vectors& direction, Vectors& to_n1, Vectors& to_n2, Vectors& to_unit,
                             Numbers& to_inverse_length) {
-  for (int i = 0; i < kMost; ++i) {
+  for (int i = 0; i < kMaxLines; ++i) {
     const double d[3] = {direction[0][i], direction[1][i], direction[2][i]};
     const double length2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     const double inverse_length = 1 / std::sqrt(length2);
@@ -45,7 +45,7 @@ LEKALO_WIDE void make_bases(const Vectors& direction, Vectors& to_n1, Vectors& t
 LEKALO_WIDE void move_all_near(const Vectors& origin, const Vectors& direction, const Vectors& upper,
                                const Vectors& lower, const Numbers& inverse_length2, const Vec3& center, Vectors& near,
                                Numbers& foot_point) {
-  for (int i = 0; i < kMost; ++i) {
+  for (int i = 0; i < kMaxLines; ++i) {
     double at[3];
     foot_point[i] =
         move_near({origin[0][i], origin[1][i], origin[2][i]}, {direction[0][i], direction[1][i], direction[2][i]},
@@ -61,10 +61,10 @@ LEKALO_WIDE unsigned enters_box(const PatchCell& cell, const Vectors& near, cons
   double middle[3], lo[3], hi[3];
   for (int k = 0; k < 3; ++k) middle[k] = cell.frame[k][3], lo[k] = cell.lo[k], hi[k] = cell.hi[k];
   Numbers enters, leaves;
-  for (int i = 0; i < kMost; ++i) enters[i] = begin[i] - foot_point[i], leaves[i] = end[i] - foot_point[i];
+  for (int i = 0; i < kMaxLines; ++i) enters[i] = begin[i] - foot_point[i], leaves[i] = end[i] - foot_point[i];
   for (int k = 0; k < 3; ++k) {
     const double x = cell.frame[0][k], y = cell.frame[1][k], z = cell.frame[2][k];
-    for (int i = 0; i < kMost; ++i) {
+    for (int i = 0; i < kMaxLines; ++i) {
       const double from = (near[0][i] - middle[0]) * x + (near[1][i] - middle[1]) * y + (near[2][i] - middle[2]) * z;
       const double along = direction[0][i] * x + direction[1][i] * y + direction[2][i] * z;
       const double per = 1 / along, at_lo = (lo[k] - from) * per, at_hi = (hi[k] - from) * per;
@@ -74,7 +74,7 @@ LEKALO_WIDE unsigned enters_box(const PatchCell& cell, const Vectors& near, cons
     }
   }
   unsigned result = 0;
-  for (int i = 0; i < kMost; ++i) result |= static_cast<unsigned>(!(enters[i] > leaves[i])) << i;
+  for (int i = 0; i < kMaxLines; ++i) result |= static_cast<unsigned>(!(enters[i] > leaves[i])) << i;
   return result;
 }
 
@@ -85,7 +85,7 @@ LEKALO_WIDE void guess_roots(const PatchCell& cell, const Vectors& near, const V
   double middle[3], x[3], y[3], z[3];
   for (int k = 0; k < 3; ++k)
     middle[k] = cell.frame[k][3], x[k] = cell.frame[0][k], y[k] = cell.frame[1][k], z[k] = cell.frame[2][k];
-  for (int i = 0; i < kMost; ++i) {
+  for (int i = 0; i < kMaxLines; ++i) {
     double from[3], along[3];
     for (int k = 0; k < 3; ++k) {
       from[k] = (near[0][i] - middle[0]) * x[k] + (near[1][i] - middle[1]) * y[k] + (near[2][i] - middle[2]) * z[k];

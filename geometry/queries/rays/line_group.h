@@ -14,9 +14,9 @@ namespace lekalo::geometry {
 // Several lines, each with the range of t in which it is asked. Those that are not set are computed with, nothing else.
 class LineGroup {
  public:
-  static constexpr int kMost = 8;
-  using Numbers = std::array<double, kMost>;  // one for each line
-  using Vectors = std::array<Numbers, 3>;     // x of all, y, z
+  static constexpr int kMaxLines = 8;
+  using Numbers = std::array<double, kMaxLines>;  // one for each line
+  using Vectors = std::array<Numbers, 3>;         // x of all, y, z
 
   void set(int i, const Line& line, const Interval& range);
   void set_end(int i, double t) { end_[i] = t; }
@@ -67,13 +67,13 @@ struct GroupHit {
 // At most one for each line and each of the pieces that are asked together.
 class GroupHits {
  public:
-  static constexpr int kMostPieces = 2;
+  static constexpr int kMaxPieces = 2;
   void add(const GroupHit& hit) { hits_[count_++] = hit; }
   const GroupHit* begin() const { return hits_.data(); }
   const GroupHit* end() const { return hits_.data() + count_; }
 
  private:
-  std::array<GroupHit, LineGroup::kMost * kMostPieces> hits_;  // not initialised
+  std::array<GroupHit, LineGroup::kMaxLines * kMaxPieces> hits_;  // not initialised
   int count_ = 0;
 };
 

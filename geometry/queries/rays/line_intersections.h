@@ -32,7 +32,7 @@ class LineTarget {
   virtual Box3 piece_bounds(int piece) const = 0;
   // Adds the hits with t in the interval, in natural parameters, inside the domain (and the trims, if any).
   virtual void piece_hits(int piece, const PreparedLine& line, const Interval& t, LineHits& hits) const = 0;
-  // Hits of lines that are asked together on the pieces from `first` to before `end`, at most GroupHits::kMostPieces,
+  // Hits of lines that are asked together on the pieces from `first` to before `end`, at most GroupHits::kMaxPieces,
   // in the lines' ranges: line i on the k-th piece if bit i of asked[k] is set. What is not told at once is left open.
   virtual void group_hits(int first, int end, const unsigned* asked, const LineGroup& lines, GroupHits& hits) const;
   // True if certainly no line of that direction meets the piece twice: a ray that leaves a point of the piece does not

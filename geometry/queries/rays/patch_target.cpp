@@ -200,10 +200,10 @@ void PatchTarget::piece_hits(int i, const PreparedLine& line, const Interval& t,
 }
 
 void PatchTarget::group_hits(int first, int end, const unsigned* asked, const LineGroup& lines, GroupHits& hits) const {
-  std::array<LineGroup::Start, LineGroup::kMost * GroupHits::kMostPieces> starts;
+  std::array<LineGroup::Start, LineGroup::kMaxLines * GroupHits::kMaxPieces> starts;
   size_t count = 0;
   const auto iterate = [&](const Patch& patch) {
-    std::array<LineGroup::End, LineGroup::kMost * GroupHits::kMostPieces> ends;
+    std::array<LineGroup::End, LineGroup::kMaxLines * GroupHits::kMaxPieces> ends;
     lines.iterate(view_of(patch), std::span(starts.data(), count), ends.data());
     for (size_t k = 0; k < count; ++k) {
       const LineGroup::Start& start = starts[k];

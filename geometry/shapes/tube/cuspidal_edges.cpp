@@ -14,9 +14,9 @@ namespace lekalo::geometry {
 namespace {
 
 constexpr int kTerms = 20;
-constexpr double kModelError = 1e-14;                               // of the size
-constexpr double kAgree = 1e-13, kLeast = 1e-6, kLargeOpen = 1e-3;  // likewise
-constexpr double kBorder = 1e-12;                                   // of the domain's sides
+constexpr double kModelError = 1e-14;                                // of the size
+constexpr double kAgree = 1e-13, kMinBox = 1e-6, kLargeOpen = 1e-3;  // likewise
+constexpr double kBorder = 1e-12;                                    // of the domain's sides
 constexpr int kMaxBoxes = 40000, kChecks = 53;
 
 template <class S>
@@ -213,7 +213,7 @@ std::optional<BendEdges> bend_edges(const BallSweep& sweep, const Interval& rang
   const std::optional<Bend> bend = Bend::of(sweep, range);
   if (!bend) return std::nullopt;
   SolutionCurveOptions<3> options;
-  options.least = kLeast * bend->size();
+  options.least = kMinBox * bend->size();
   options.max_boxes = kMaxBoxes;
   options.divides_hard_boxes = true;
   options.rounding = bend->rounding();

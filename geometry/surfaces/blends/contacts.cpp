@@ -95,7 +95,7 @@ Contacts::Solution Contacts::solve(const Place& place, Unknowns x) const {
   const int n = count();
   const Triple<double> g = triple(place.guide), along = triple(place.along);
   const auto residuals = [&](const Triple<J>& p, const Triple<J>& m, const Triple<J>& q, const Triple<J>& k,
-                             const J& radius) -> std::array<J, kMost> {
+                             const J& radius) -> std::array<J, kMaxUnknowns> {
     const auto [a, b] = place.sizes;
     if (law_.kind == BlendKind::edge) {
       const Triple<J> way = p + a * m - g;
@@ -113,8 +113,8 @@ Contacts::Solution Contacts::solve(const Place& place, Unknowns x) const {
     const Triple<J> apart = c - d, chord = p - q;
     return {apart.x, apart.y, apart.z, dot(0.5 * (c + d) - g, along), (dot(chord, chord) - a * a) / a};
   };
-  Eigen::Matrix<double, kMost, kMost> matrix = Eigen::Matrix<double, kMost, kMost>::Zero();
-  Eigen::Matrix<double, kMost, 1> values = Eigen::Matrix<double, kMost, 1>::Zero();
+  Eigen::Matrix<double, kMaxUnknowns, kMaxUnknowns> matrix = Eigen::Matrix<double, kMaxUnknowns, kMaxUnknowns>::Zero();
+  Eigen::Matrix<double, kMaxUnknowns, 1> values = Eigen::Matrix<double, kMaxUnknowns, 1>::Zero();
   int polished = 0;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const Local p = local_at(*law_.of[0], law_.sides[0], x[0], x[1]);
@@ -224,7 +224,7 @@ Contact Contacts::at(double t) const {
   const Node& node = after == nodes_.begin() ? next : *(after - 1);
   const double w = next.t > node.t ? (t - node.t) / (next.t - node.t) : 0;
   Unknowns start;
-  for (int k = 0; k < kMost; ++k) start[k] = node.x[k] + w * (next.x[k] - node.x[k]);
+  for (int k = 0; k < kMaxUnknowns; ++k) start[k] = node.x[k] + w * (next.x[k] - node.x[k]);
   const Place place = place_at(t);
   const Solution found = solve(place, start);
   if (!found.found)

@@ -59,8 +59,8 @@ class Contacts {
   Contact at(double t) const;
 
  private:
-  static constexpr int kMost = 5;  // u, v, u, v, radius
-  using Unknowns = std::array<double, kMost>;
+  static constexpr int kMaxUnknowns = 5;  // u, v, u, v, radius
+  using Unknowns = std::array<double, kMaxUnknowns>;
   struct Place {
     double t = 0;
     Vec3 guide{0}, along{0};  // its point, its direction of length 1

@@ -53,7 +53,7 @@ bool Contacts::march(const Node& from, double direction, std::vector<Node>& node
     const double t = reaches ? end : at.t + direction * step, taken = std::abs(t - at.t);
     Unknowns start = at.x;
     if (last_step > 0)
-      for (int k = 0; k < kMost; ++k) start[k] += (at.x[k] - last.x[k]) * taken / last_step;
+      for (int k = 0; k < kMaxUnknowns; ++k) start[k] += (at.x[k] - last.x[k]) * taken / last_step;
     const Solution found = solve(place_at(t), start);
     bool is_smooth = found.found;
     if (is_smooth) {

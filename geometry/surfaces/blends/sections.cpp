@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kAgree = 1e-13;
 constexpr double kRounding = 4e-15;  // of coordinates
-constexpr double kLeastWeight = 1e-4;
+constexpr double kMinWeight = 1e-4;
 
 // The weight of a circle between the contacts: the cosine of half of the angle at its center.
 double circle_weight(const Contact& at) {
@@ -177,7 +177,7 @@ BlendCurves blend_curves(const Contacts& contacts, const SectionShape& shape) {
   if (contacts.law().kind == BlendKind::chamfer) return curves;
   const auto weight = [&](const Contact& c) { return shape.weight > 0 ? shape.weight : circle_weight(c); };
   for (const auto& [t, contact] : known)
-    if (circle_weight(contact) < kLeastWeight)
+    if (circle_weight(contact) < kMinWeight)
       throw FieldError(contacts.law().size_field,
                        fmt::format("the ball touches both surfaces at opposite points at the guide's t = {:.6g}", t),
                        "take another size, or a part of the guide");

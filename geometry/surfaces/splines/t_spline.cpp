@@ -207,7 +207,7 @@ struct GivenFunctions {
 Periods periods_of(const Fields& f) { return {f.u<double>("period"), f.v<double>("period")}; }
 
 // Along a closed direction the domain is one period.
-void check_domain(const GivenFunctions& given, const Interval& least_u, const Interval& least_v) {
+void check_domain(const GivenFunctions& given, const Interval& min_u, const Interval& min_v) {
   const auto check = [](const Interval& domain, double period, double begin) {
     if (period > 0 && !(std::abs(domain.width() - period) <= kSameKnot * period && domain.lo == begin))
       throw FieldError(
@@ -216,8 +216,8 @@ void check_domain(const GivenFunctions& given, const Interval& least_u, const In
                       domain.hi, period, begin),
           "one period, from its beginning");
   };
-  check(given.domain.u, given.periods.u, least_u.lo);
-  check(given.domain.v, given.periods.v, least_v.lo);
+  check(given.domain.u, given.periods.u, min_u.lo);
+  check(given.domain.v, given.periods.v, min_v.lo);
 }
 
 void check_own_knots(const Grid<double>& knots, const char* field) {

@@ -100,7 +100,7 @@ struct Towards {
 // The curve must stand beside the path: places looked at, and the least sine of the angle between its direction and the
 // path's.
 constexpr int kPlacesBeside = 256;
-constexpr double kLeastSine = 1e-6;
+constexpr double kMinSine = 1e-6;
 
 void check_beside(const Curve& path, const Curve& other, const char* field) {
   const double size = bounds(path).diameter();
@@ -109,10 +109,10 @@ void check_beside(const Curve& path, const Curve& other, const char* field) {
     const double v = range.lo + range.width() * i / kPlacesBeside;
     const CurveJet at = path.evaluate(v, 1);
     const Vec3 d = other.point(v) - at.d[0];
-    if (!(glm::length(d) > kLeastSine * size))
+    if (!(glm::length(d) > kMinSine * size))
       throw FieldError(field, fmt::format("the curve meets the path at s = {:.6g}", (v - range.lo) / range.width()),
                        "it runs beside the path");
-    if (!(glm::length(glm::cross(d, at.d[1])) > kLeastSine * glm::length(d) * glm::length(at.d[1])))
+    if (!(glm::length(glm::cross(d, at.d[1])) > kMinSine * glm::length(d) * glm::length(at.d[1])))
       throw FieldError(
           field,
           fmt::format("at s = {:.6g} the curve lies in the direction of the path", (v - range.lo) / range.width()),

@@ -27,7 +27,7 @@ using Kind = ElementId::Kind;
 
 namespace {
 
-constexpr size_t kMostNames = 5;  // in hints
+constexpr size_t kMaxNames = 5;  // in hints
 
 std::vector<std::string> usual_names() {
   std::vector<std::string> names;
@@ -192,7 +192,7 @@ std::optional<std::vector<NamedElement>> Builder::elements_named(const Value& na
       const std::vector<std::string> names = geometry::names_of(**body, Element::face);
       diagnostics_.error(name.place,
                          fmt::format("'{}' has no face or edge '{}'{}", full, one.part, suggestion(one.part, names)),
-                         "the nearest are " + listed(geometry::nearest_names(one.part, names, kMostNames)));
+                         "the nearest are " + listed(geometry::nearest_names(one.part, names, kMaxNames)));
       return std::nullopt;
     }
     for (const int index : found) all.push_back(element_of_body(thing, *body, element, index, full));
@@ -318,7 +318,7 @@ std::optional<MeasuredQuantity> Builder::quantity_of_element(const QuantityOfEle
     std::vector<std::string> names;
     for (const NamedElement& one : *elements) names.push_back(one.name);
     diagnostics_.error(of.place, fmt::format("{} things are meant by this; one is wanted here", names.size()),
-                       names.empty() ? "" : "they are " + listed(names, kMostNames));
+                       names.empty() ? "" : "they are " + listed(names, kMaxNames));
     return std::nullopt;
   }
   const NamedElement& element = elements->front();

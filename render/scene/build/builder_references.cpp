@@ -19,7 +19,7 @@ using geometry::BodyPtr;
 
 namespace {
 
-constexpr size_t kMostNames = 5;  // in hints
+constexpr size_t kMaxNames = 5;  // in hints
 
 bool contains(std::span<const Category> categories, Category category) {
   return std::find(categories.begin(), categories.end(), category) != categories.end();
@@ -282,8 +282,8 @@ std::optional<std::vector<Builder::NamedPart>> Builder::parts_named(const Value&
         elsewhere                           ? fmt::format("'{}' stands under '{}'", *text, elsewhere)
         : !meant.empty()                    ? "write " + meant
         : !nearest.empty() || names.empty() ? ""
-                                            : (names.size() > kMostNames ? "the nearest are " : "there are ") +
-                                                  listed(geometry::nearest_names(*text, names, kMostNames)));
+                                            : (names.size() > kMaxNames ? "the nearest are " : "there are ") +
+                                                  listed(geometry::nearest_names(*text, names, kMaxNames)));
     return std::nullopt;
   }
   const auto known = things->find(found.entry->key.name);

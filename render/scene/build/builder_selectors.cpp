@@ -34,7 +34,7 @@ using geometry::SurfacePtr;
 
 namespace {
 
-constexpr size_t kMostCandidates = 5;
+constexpr size_t kMaxCandidates = 5;
 
 // Conditions of a selector, beside `of`.
 const std::set<std::string> kConditions = {"face",     "edge",   "vertex",  "between", "of_face",
@@ -234,7 +234,7 @@ std::optional<Builder::Choice> Builder::choose_one(const Value& map, const Count
   std::vector<std::string> names;
   for (const int k : choice->indices) names.push_back(geometry::described(*choice->body, choice->element, k));
   diagnostics_.error(map.place, fmt::format("{} things are meant by this; one is wanted here", names.size()),
-                     "they are " + listed(names, kMostCandidates));
+                     "they are " + listed(names, kMaxCandidates));
   return std::nullopt;
 }
 
@@ -273,7 +273,7 @@ std::optional<std::vector<Built>> Builder::elements_called(const Body& body, std
   const char* word = likely == Element::face ? "face" : likely == Element::edge ? "edge" : "vertex";
   const std::string whole = asked.text.substr(0, asked.text.size() - name.size() - 1);
   diagnostics_.error(asked.place, fmt::format("'{}' has no {} '{}'{}", whole, word, name, suggestion(name, names)),
-                     "the nearest are " + listed(geometry::nearest_names(name, names, kMostCandidates)));
+                     "the nearest are " + listed(geometry::nearest_names(name, names, kMaxCandidates)));
   return std::nullopt;
 }
 

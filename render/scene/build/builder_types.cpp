@@ -65,9 +65,10 @@ bool speaks_of(const Value& value, const Counters& counters, bool outermost = tr
 
 // Hints name few: the nearest, of types that would do.
 std::string some_of(const std::string& name, const std::vector<std::string>& known) {
-  constexpr size_t kMost = 5;
-  if (known.size() <= kMost) return "one of " + listed(known);
-  return fmt::format("for example {}; 'lekalo types' lists all", listed(geometry::nearest_names(name, known, kMost)));
+  constexpr size_t kMaxNames = 5;
+  if (known.size() <= kMaxNames) return "one of " + listed(known);
+  return fmt::format("for example {}; 'lekalo types' lists all",
+                     listed(geometry::nearest_names(name, known, kMaxNames)));
 }
 
 // "'circle'", "an object".

@@ -68,9 +68,9 @@ void Builder::build_lights(Model& model) {
   visit_named("lights", Category::light, [&](const std::string&, const Built& built) {
     model.lights.push_back(std::any_cast<LightPtr>(built.value));
   });
-  if (light_groups(model).size() >= LightParts::kMostGroups)
+  if (light_groups(model).size() >= LightParts::kMaxGroups)
     diagnostics_.error(section("lights")->place, "too many groups of lights",
-                       fmt::format("at most {}", LightParts::kMostGroups - 1));
+                       fmt::format("at most {}", LightParts::kMaxGroups - 1));
   if (section("lights")) return;
   // The shipped studio, read like any scene file.
   for (const auto& folder : options_.search_path) {

@@ -72,7 +72,7 @@ TEST(Strip, LeastDifferenceIsThatOfAllDirections) {
     const Vec3 d = std::cos(angle) * x + std::sin(angle) * y;
     least = std::min(least, bend_by_equation(contact.cutter, place, d) - glm::dot(d, *shape * d));
   }
-  EXPECT_NEAR(contact_bend(contact, 1.0).least_difference, least, 2e-4);
+  EXPECT_NEAR(contact_bend(contact, 1.0).min_difference, least, 2e-4);
 }
 
 // Of an offset the curvatures are k/(1 - d k).
@@ -84,7 +84,7 @@ TEST(Strip, AllowanceIsThatOfTheOffset) {
   contact.allowance = 0.5;
   const ContactBend a = contact_bend(contact, 0.4), b = contact_bend(on_offset, 0.4);
   EXPECT_NEAR(a.part_across, -1 / 4.5, 1e-14);
-  EXPECT_NEAR(a.least_difference, b.least_difference, 1e-13);
+  EXPECT_NEAR(a.min_difference, b.min_difference, 1e-13);
   EXPECT_NEAR(glm::length(a.across - b.across), 0, 1e-14);
 }
 
@@ -106,7 +106,7 @@ TEST(Strip, SharpCornersBendAlongTheirRimAlone) {
   const ToolAxis lead{ToolAxis::Kind::lead, Vec3(0), ScalarLaw(0.2)};
   const ContactBend bend = contact_bend(contact_on(table, {2, 0, 5, 0}, lead), 0.3);
   EXPECT_NEAR(bend.cutter_across, std::sin(0.2) / 2, 1e-14);
-  EXPECT_NEAR(bend.least_difference, std::sin(0.2) / 2, 1e-14);
+  EXPECT_NEAR(bend.min_difference, std::sin(0.2) / 2, 1e-14);
   EXPECT_TRUE(std::isinf(contact_bend(contact_on(table, {2, 0, 5, 0}, kTilted), 0.3).cutter_across));
 }
 

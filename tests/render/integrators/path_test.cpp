@@ -54,9 +54,9 @@ std::shared_ptr<const World> world(const SmallScene& scene, const PathOptions& o
   return std::make_shared<World>(finished);
 }
 
-void expect_mean(const Estimate& found, double truth, const char* what, double most_error) {
+void expect_mean(const Estimate& found, double truth, const char* what, double max_error) {
   EXPECT_NEAR(found.mean, truth, 3 * found.error + 1e-6 * truth) << what;
-  EXPECT_LT(found.error, most_error * truth) << what;
+  EXPECT_LT(found.error, max_error * truth) << what;
 }
 
 TEST(Path, SphereLightOverAPlane) {

@@ -51,10 +51,10 @@ Colors estimate(const SmallScene& scene, PathOptions options, const Vec3& origin
   return {sum, glm::sqrt(glm::max(Vec3(0), squares - sum * sum) / (kBlocks - 1.0))};
 }
 
-void expect_colors(const Colors& found, const Vec3& truth, double most_error, const char* what) {
+void expect_colors(const Colors& found, const Vec3& truth, double max_error, const char* what) {
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(found.mean[c], truth[c], 4 * found.error[c] + 1e-4) << what << ", colour " << c;
-    EXPECT_LT(found.error[c], most_error) << what << ", colour " << c;
+    EXPECT_LT(found.error[c], max_error) << what << ", colour " << c;
   }
 }
 

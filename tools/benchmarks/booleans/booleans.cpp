@@ -37,7 +37,7 @@ std::optional<TopoDS_Shape> same_in_occt(const Body& body) {
 }
 
 template <class Work>
-double least_seconds(int runs, const Work& work) {
+double min_seconds(int runs, const Work& work) {
   double least = 1e300;
   for (int k = 0; k < runs; ++k) {
     const double begin = seconds(CLOCK_PROCESS_CPUTIME_ID);
@@ -73,11 +73,11 @@ void print_row(const std::string& name, int pairs, int runs, const Make& make) {
     const BodyPair pair = make(static_cast<unsigned>(k));
     const auto a = same_in_occt(pair.a), b = same_in_occt(pair.b);
     if (!a || !b) continue;
-    const double own = least_seconds(runs, [&] { own_booleans(pair); }), of_occt = least_seconds(runs, [&] {
-                                                                           occt_boolean<BRepAlgoAPI_Fuse>(*a, *b);
-                                                                           occt_boolean<BRepAlgoAPI_Common>(*a, *b);
-                                                                           occt_boolean<BRepAlgoAPI_Cut>(*a, *b);
-                                                                         });
+    const double own = min_seconds(runs, [&] { own_booleans(pair); }), of_occt = min_seconds(runs, [&] {
+                                                                         occt_boolean<BRepAlgoAPI_Fuse>(*a, *b);
+                                                                         occt_boolean<BRepAlgoAPI_Common>(*a, *b);
+                                                                         occt_boolean<BRepAlgoAPI_Cut>(*a, *b);
+                                                                       });
     ++compared, ours += own, theirs += of_occt;
     worst = std::min(worst, of_occt / own);
   }

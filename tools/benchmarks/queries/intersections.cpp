@@ -14,8 +14,8 @@ using namespace geometry;
 
 namespace {
 
-// What OCCT recommends; with less it comes no nearer to the surfaces, which kLeast is to show.
-constexpr double kUsual = 1e-7, kLeast = 1e-10;
+// What OCCT recommends; with less it comes no nearer to the surfaces, which kFinest is to show.
+constexpr double kUsual = 1e-7, kFinest = 1e-10;
 constexpr double kGap = 1e-4;  // ends of OCCT's pieces that are one
 constexpr int kPlaces = 25;    // on each branch where the residual is measured
 
@@ -75,7 +75,7 @@ void race(const std::string& name, const std::vector<OcctPair>& pairs, int runs)
     worst_ratio = std::min(worst_ratio, occt_time.least() / own_time.least());
     const Contours own = intersect(pair.a.own, pair.b.own);
     const double gap = kGap * size_of(pair);
-    const OcctBranches found = occt_branches(pair, kUsual, gap), least = occt_branches(pair, kLeast, gap);
+    const OcctBranches found = occt_branches(pair, kUsual, gap), least = occt_branches(pair, kFinest, gap);
     own_residual = std::max(own_residual, residual(pair, own));
     occt_residual = std::max(occt_residual, residual(pair, found));
     min_residual = std::max(min_residual, residual(pair, least));

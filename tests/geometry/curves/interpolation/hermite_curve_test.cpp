@@ -116,7 +116,7 @@ TEST(HermiteCurve, LeastEnergySpeedsHaveTheLeastEnergy) {
     const PointSequence s = data.sequence(closed);
     std::vector<Vec3> directions = estimated_tangents("secant", s);
     for (Vec3& d : directions) d = glm::normalize(d);
-    const std::vector<double> speeds = least_energy_speeds(s, directions);
+    const std::vector<double> speeds = min_energy_speeds(s, directions);
     const auto with = [&](int point, double change) {
       std::vector<Vec3> tangents;
       for (int i = 0; i < s.size(); ++i) tangents.push_back((speeds[i] + (i == point ? change : 0)) * directions[i]);

@@ -18,8 +18,8 @@ namespace {
 TEST(Regularity, BoundsSpeedAndCurvature) {
   const CurveRegularity found = regularity(Ellipse(Frame(), 3, 1));
   EXPECT_TRUE(found.is_regular());
-  EXPECT_LE(found.least_speed, 1);
-  EXPECT_GE(found.least_speed, 0.98);
+  EXPECT_LE(found.min_speed, 1);
+  EXPECT_GE(found.min_speed, 0.98);
   EXPECT_GE(found.curvature_bound, 3);
   EXPECT_LE(found.curvature_bound, 3.06);
 }
@@ -30,7 +30,7 @@ TEST(Regularity, FindsACusp) {
   const CurveRegularity found = regularity(bezier_curve(points));
   ASSERT_EQ(found.singular.size(), 1u);
   EXPECT_NEAR(found.singular[0], 0.5, 1e-6);
-  EXPECT_EQ(found.least_speed, 0);
+  EXPECT_EQ(found.min_speed, 0);
 }
 
 TEST(Regularity, FindsPoles) {
@@ -42,8 +42,8 @@ TEST(Regularity, FindsPoles) {
   }
   const SurfaceRegularity ring = regularity(TorusSurface(Frame(), 3, 1));
   EXPECT_TRUE(ring.is_regular());
-  EXPECT_LE(ring.least_area, 2);
-  EXPECT_GE(ring.least_area, 1.8);
+  EXPECT_LE(ring.min_area, 2);
+  EXPECT_GE(ring.min_area, 1.8);
 }
 
 TEST(CellDiameters, BoundTheSurface) {
