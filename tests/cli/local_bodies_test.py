@@ -208,6 +208,16 @@ class LocalBodies(ProgramTest):
             pipe = f"  ball: {{ type: ball, radius: 10 }}\n  pipe: {{ type: cylinder_body, axis: {axis}, radius: 4, height: 25 }}\n"
             self.assert_near(self.volume("type: shell_body, of: { type: union, of: [ball, pipe] }, thickness: 1, open: pipe.end", pipe), 1450.22714836991, 1e-7)
 
+    def test_walls_of_mitred_fillets(self):
+        """Fillets of one radius that meet in a mitre cross where their cylinders touch."""
+        def rounded(a, b, height, r):  # about its top; at s below the fillets' axes the sides stand r - sqrt(r^2 - s^2) further in
+            return a * b * height - 2 * (a + b) * r * r * (1 - math.pi / 4) + 4 * r**3 * (5 / 3 - math.pi / 2)
+        more = ("  block: { type: box, size: [4, 3, 2] }\n"
+                "  round: { type: fillet_body, of: block, corners: mitred, fillets: { radius: 0.5, edges: { of_face: z_max } } }\n")
+        for wall in (0.05, 0.1):
+            inner = rounded(4 - 2 * wall, 3 - 2 * wall, 2 - wall, 0.5 - wall)
+            self.assert_near(self.volume(f"type: shell_body, of: round, thickness: {wall}, open: z_min", more), rounded(4, 3, 2, 0.5) - inner, 1e-10)
+
     def test_balls_on_edges(self):
         def corner(radius, d):  # of a ball: beyond d from its center along both of two axes, by heights
             total = 0
