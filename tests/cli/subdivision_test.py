@@ -37,6 +37,13 @@ class Subdivision(ProgramTest):
         edge = self.point("cube", 1, 0.5, 0)
         self.assert_near([edge[0], edge[1] + edge[2]], [0, 0], 1e-14)
 
+    def test_silhouettes(self):
+        """The faces at -z and z are each other's images in the cube's middle; a line of patches on one is no crease."""
+        found = [self.json_of("measure", "scene.yaml", f"cube.face.{face}", "--silhouette", "0.4532,-0.7849,0.4226") for face in (0, 1)]
+        for one in found:
+            self.assertEqual((len(one["branches"]), one["points"], one["complete"]), (1, [], True))
+        self.assert_near(found[0]["branches"][0]["length"], found[1]["branches"][0]["length"], 1e-13)
+
     def test_creases(self):
         self.assert_near(self.point("drum", 1, 0, 0), [-2 / 3, -2 / 3, 1], 1e-14)
         self.assert_near(self.point("drum", 1, 0.3, 0.6)[2], 1, 1e-14)

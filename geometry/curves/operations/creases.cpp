@@ -7,8 +7,9 @@ namespace lekalo::geometry {
 
 namespace {
 
-// How far beside a line the normals of its sides are taken, of the domain: there they have hardly turned.
-constexpr double kBeside = 1e-9;
+// How far beside a line the normals of its sides are taken, of the pieces there: they have hardly turned. Not nearer
+// than some roundings of the parameter.
+constexpr double kBeside = 1e-9, kRoundings = 1e-15;
 // Where a piece's border is asked, of its length: a crease may fade towards its ends.
 constexpr double kPlaces[] = {0.05, 0.23, 0.5, 0.81, 0.97};
 // Opposite edges of a domain are one line where they are this near, of the surface's size.
@@ -72,7 +73,7 @@ std::vector<Crease> creases(const Surface& surface, double angle) {
                    along = u ? surface.domain().v : surface.domain().u;
     const std::vector<double> lines = borders(pieces, held),
                               stops = borders(pieces, u ? IsoDirection::v : IsoDirection::u);
-    const double beside = kBeside * range.width();
+    const auto beside = [&](double width) { return std::max(kBeside * width, kRoundings * magnitude(range)); };
     const auto add = [&](double before, double behind, double at, Seam seam) {
       bool goes_on = false;
       for (size_t k = 0; k + 1 < stops.size(); ++k) {
@@ -92,10 +93,11 @@ std::vector<Crease> creases(const Surface& surface, double angle) {
         goes_on = folds;
       }
     };
-    for (const double at : lines)
-      if (at > range.lo && at < range.hi) add(at - beside, at + beside, at, Seam::none);
+    for (size_t k = 1; k + 1 < lines.size(); ++k)
+      add(lines[k] - beside(lines[k] - lines[k - 1]), lines[k] + beside(lines[k + 1] - lines[k]), lines[k], Seam::none);
     if (const Seam seam = seam_of(sides, range, along, same); seam != Seam::none)
-      add(range.hi - beside, range.lo + beside, range.lo, seam);
+      add(range.hi - beside(range.hi - lines[lines.size() - 2]), range.lo + beside(lines[1] - range.lo), range.lo,
+          seam);
   }
   return found;
 }

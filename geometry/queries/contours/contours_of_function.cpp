@@ -63,7 +63,17 @@ PartsBetweenCreases parts_between_creases(const Surface& surface) {
   const auto before = [](const std::vector<double>& at, double lo) {
     return static_cast<size_t>(std::upper_bound(at.begin(), at.end(), lo) - at.begin());
   };
-  for (SurfacePiece& piece : between_poles(surface))
+  std::vector<SurfacePiece> pieces = between_poles(surface);
+  // A crease may end inside of a piece's side, and its line go on through larger pieces.
+  for (size_t k = 0; k < pieces.size(); ++k)
+    for (const auto side : {&Rectangle::u, &Rectangle::v}) {
+      const std::vector<double>& at = cuts[side == &Rectangle::u ? 0 : 1];
+      const size_t first = before(at, (pieces[k].domain.*side).lo);
+      if (first == at.size() || !(at[first] < (pieces[k].domain.*side).hi)) continue;
+      pieces.push_back(pieces[k]);
+      (pieces[k].domain.*side).hi = (pieces.back().domain.*side).lo = at[first];
+    }
+  for (SurfacePiece& piece : pieces)
     result.parts[{before(cuts[0], piece.domain.u.lo), before(cuts[1], piece.domain.v.lo)}].push_back(std::move(piece));
   return result;
 }
