@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "geometry/curves/operations/surface_curve.h"
+#include "geometry/queries/contours/analytic/profile_sections.h"
 #include "geometry/queries/contours/contour_assembly.h"
 #include "geometry/queries/contours/surface_joints.h"
 #include "geometry/queries/implicit_curves/smooth_parts.h"
@@ -306,7 +307,8 @@ class SelfIntersection {
 
 Contours self_intersection(const SurfacePtr& surface, double tolerance) {
   if (!surface->bounded()) throw std::invalid_argument("the surface is unbounded: give it a domain");
-  Contours found = SelfIntersection(surface, tolerance).run();
+  const auto of_profile = profile_self_intersection(surface, tolerance);
+  Contours found = of_profile ? *of_profile : SelfIntersection(surface, tolerance).run();
   const SteppedParts stepped = parts_between_steps(surface);
   found.complete = found.complete && stepped.known && stepped.parts.empty();
   return found;

@@ -8,6 +8,7 @@
 #include "geometry/curves/operations/curve_parts.h"
 #include "geometry/formula.h"
 #include "geometry/queries/intersections/curve_intersections.h"
+#include "geometry/queries/intersections/self_intersections.h"
 #include "geometry/queries/quadrics/canonical_surface.h"
 #include "geometry/surfaces/analytic/parameter_range.h"
 #include "geometry/surfaces/analytic/plane.h"
@@ -68,6 +69,65 @@ Affine functionals(const Vec3& row_x, const Vec3& row_y, const Vec3& offset) {
   return {glm::transpose(Mat3(row_x, row_y, Vec3(0))), offset};
 }
 
+bool keeps_angles(const Mat3& m) {
+  const Mat3 square = glm::transpose(m) * m;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (std::abs(square[i][j] - (i == j ? square[0][0] : 0)) > kRounding * square[0][0]) return false;
+  return true;
+}
+
+// The axis of a moved surface of revolution; a mirror turns the other way round.
+Frame frame_of(const Axis& axis, const Affine& map) {
+  const Vec3 along = glm::normalize(map.direction(axis.along));
+  return frame_about(map.point(axis.through), map.determinant() > 0 ? along : -along);
+}
+
+// From the axis towards a profile that is plane with it and does not meet it.
+std::optional<Vec3> way_to_profile(const Curve& curve, const Frame& frame, double size) {
+  const auto form = curve.as_nurbs();
+  if (!form) return std::nullopt;
+  Vec3 out(0);
+  for (const Vec4& p : form->points) {
+    const Vec3 off = Vec3(p) / p.w - frame.origin, across = off - glm::dot(off, frame.z) * frame.z;
+    if (glm::length(across) > glm::length(out)) out = across;
+  }
+  const Vec3 x = glm::normalize(out), side = glm::cross(frame.z, x);
+  for (const Vec4& p : form->points) {
+    const Vec3 off = Vec3(p) / p.w - frame.origin;
+    if (std::abs(glm::dot(off, side)) > kRounding * size) return std::nullopt;
+    // On the axis both halves would be one.
+    if (!(std::abs(glm::dot(off, x)) > kShort * size)) return std::nullopt;
+  }
+  return x;
+}
+
+// Of a point that turns about the axis; none near to it.
+std::shared_ptr<Circle> circle_through(const Vec3& point, const Frame& frame, const Interval& angles, double size) {
+  const Vec3 from = point - frame.origin;
+  const Vec3 out = from - glm::dot(from, frame.z) * frame.z;
+  const double radius = glm::length(out);
+  if (!(radius > kShort * size)) return nullptr;
+  Frame at;
+  at.origin = frame.origin + (from - out);
+  at.x = out / radius;
+  at.z = frame.z;
+  at.y = glm::cross(at.z, at.x);
+  return std::make_shared<Circle>(at, radius, angles);
+}
+
+// A surface and how it was moved.
+struct Moved {
+  const Surface* original;
+  Affine map;
+  explicit Moved(const SurfacePtr& surface) : original(surface.get()) {
+    const auto* moved = dynamic_cast<const TransformedSurface*>(original);
+    if (!moved) return;
+    original = moved->original().get();
+    map = moved->map();
+  }
+};
+
 // The coordinates of a bounded plane.
 struct PlaneCoordinates {
   Affine map{Mat3(0.0), Vec3(0)};
@@ -121,25 +181,14 @@ class Section {
   bool of(const RevolutionSurface& surface, const Affine& map) {
     if (!keeps_angles(map.linear)) return false;
     const CurvePtr curve = transformed(surface.curve(), map);
-    const Axis axis = surface.axis();
-    // A mirror turns the other way round.
-    const Vec3 along = glm::normalize(map.direction(axis.along));
-    const Frame frame = frame_about(map.point(axis.through), map.determinant() > 0 ? along : -along);
+    const Frame frame = frame_of(surface.axis(), map);
     const Rectangle domain = surface.domain();
     const double cosine = std::abs(glm::dot(plane_.normal, frame.z));
     const double sine = glm::length(glm::cross(plane_.normal, frame.z));
     if (sine <= kRounding)
       return each_intersection(*curve, domain.u, [&](double u, ContourKind kind) {
-        const Vec3 from = curve->point(u) - frame.origin;
-        const Vec3 out = from - glm::dot(from, frame.z) * frame.z;
-        const double radius = glm::length(out);
-        if (!(radius > kShort * size_)) return false;
-        Frame at;
-        at.origin = frame.origin + (from - out);
-        at.x = out / radius;
-        at.z = frame.z;
-        at.y = glm::cross(at.z, at.x);
-        const auto circle = std::make_shared<Circle>(at, radius, domain.v);
+        const auto circle = circle_through(curve->point(u), frame, domain.v, size_);
+        if (!circle) return false;
         return add_parts(circle, domain.v, Affine(), functionals(Vec3(0), Vec3(0), {u, 0, 0}), {0, 1, 0}, {},
                          domain.v.width() >= kTwoPi, kind);
       });
@@ -157,13 +206,6 @@ class Section {
     double height;
   };
 
-  static bool keeps_angles(const Mat3& m) {
-    const Mat3 square = glm::transpose(m) * m;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        if (std::abs(square[i][j] - (i == j ? square[0][0] : 0)) > kRounding * square[0][0]) return false;
-    return true;
-  }
   static bool is_whole(const Curve& curve, const Interval& t) {
     return curve.period() > 0 && t.width() >= curve.period() * (1 - 1e-15);
   }
@@ -185,22 +227,11 @@ class Section {
 
   // The profile is plane with the axis: turned into the plane it is the section, on both sides of the axis.
   bool turned_profiles(const CurvePtr& curve, const Frame& frame, const Rectangle& domain) {
-    const auto form = curve->as_nurbs();
-    if (!form) return false;
-    Vec3 out(0);
-    for (const Vec4& p : form->points) {
-      const Vec3 off = Vec3(p) / p.w - frame.origin, across = off - glm::dot(off, frame.z) * frame.z;
-      if (glm::length(across) > glm::length(out)) out = across;
-    }
-    const Vec3 x = glm::normalize(out), side = glm::cross(frame.z, x);
-    for (const Vec4& p : form->points) {
-      const Vec3 off = Vec3(p) / p.w - frame.origin;
-      if (std::abs(glm::dot(off, side)) > kRounding * size_) return false;
-      // On the axis both halves would be one.
-      if (!(std::abs(glm::dot(off, x)) > kShort * size_)) return false;
-    }
+    const auto x = way_to_profile(*curve, frame, size_);
+    if (!x) return false;
+    const Vec3 side = glm::cross(frame.z, *x);
     const Vec3 target = glm::normalize(glm::cross(plane_.normal, frame.z));
-    const double angle = std::atan2(glm::dot(target, side), glm::dot(target, x));
+    const double angle = std::atan2(glm::dot(target, side), glm::dot(target, *x));
     for (const double turn : {angle, angle > 0 ? angle - kPi : angle + kPi}) {
       const auto v = angle_within(domain.v, turn);
       if (!v) continue;
@@ -285,23 +316,104 @@ class Section {
   std::optional<PlaneCoordinates> coordinates_;
 };
 
+// Where the profile meets itself as it is seen along the extrusion, or in its plane.
+class SelfMeeting {
+ public:
+  SelfMeeting(const Curve& flat, double tolerance) : crossings_(self_intersections(flat, tolerance)) {
+    found.complete = crossings_.common.empty();
+  }
+
+  bool of(const ExtrusionSurface& surface, const Curve& curve, const Vec3& d) {
+    const Rectangle domain = surface.domain();
+    return each([&](double s, double t, Contour& branch) {
+      const double apart = glm::dot(curve.point(s) - curve.point(t), d) / glm::dot(d, d);
+      const Interval v = intersect(domain.v, {domain.v.lo - apart, domain.v.hi - apart});
+      if (std::abs(std::abs(apart) - domain.v.width()) <= kShort * domain.v.width()) return false;
+      if (!(v.width() > 0)) return true;
+      const Vec3 from = curve.point(s);
+      const auto line = std::make_shared<Segment>(from + v.lo * d, from + v.hi * d);
+      add(branch, line, line->domain(), {s, v.lo, 0}, {t, v.lo + apart, 0}, {0, v.width(), 0});
+      return true;
+    });
+  }
+
+  bool of(const RevolutionSurface& surface, const Curve& curve, const Frame& frame, double size) {
+    const Interval angles = surface.domain().v;
+    return each([&](double s, double t, Contour& branch) {
+      const auto circle = circle_through(curve.point(s), frame, angles, size);
+      if (!circle) return false;
+      branch.closed = angles.width() >= kTwoPi;
+      add(branch, circle, angles, {s, 0, 0}, {t, 0, 0}, {0, 1, 0});
+      return true;
+    });
+  }
+
+  Contours found;
+
+ private:
+  // Cuspidal edges are left out.
+  template <class Use>
+  bool each(Use&& use) {
+    for (const CurveSelfIntersection& one : crossings_.points) {
+      if (one.kind == SelfIntersectionKind::cusp) {
+        found.complete = false;
+        continue;
+      }
+      Contour branch;
+      branch.kind = one.kind == SelfIntersectionKind::contact ? ContourKind::touching : ContourKind::crossing;
+      branch.error = one.distance;
+      if (!use(one.s, one.t, branch)) return false;
+    }
+    found.closed_form = true;
+    return true;
+  }
+
+  void add(Contour branch, const CurvePtr& curve, const Interval& t, const Vec3& first, const Vec3& second,
+           const Vec3& rate) {
+    branch.curve = curve;
+    for (const Vec3& begin : {first, second})
+      branch.images.push_back(std::make_shared<AffineImage>(curve, t, functionals(Vec3(0), Vec3(0), begin), rate));
+    found.branches.push_back(std::move(branch));
+  }
+
+  CurveSelfIntersections crossings_;
+};
+
 }  // namespace
 
 std::optional<Contours> profile_section(const SurfacePtr& surface, const CuttingPlane& plane, double size) {
-  const Surface* original = surface.get();
-  Affine map;
-  if (const auto* moved = dynamic_cast<const TransformedSurface*>(original)) {
-    original = moved->original().get();
-    map = moved->map();
-  }
+  const Moved moved(surface);
   Section section(plane, surface->domain().v, size);
   bool known = false;
-  if (const auto* extrusion = dynamic_cast<const ExtrusionSurface*>(original))
-    known = section.of(*extrusion, map);
-  else if (const auto* revolution = dynamic_cast<const RevolutionSurface*>(original))
-    known = section.of(*revolution, map);
+  if (const auto* extrusion = dynamic_cast<const ExtrusionSurface*>(moved.original))
+    known = section.of(*extrusion, moved.map);
+  else if (const auto* revolution = dynamic_cast<const RevolutionSurface*>(moved.original))
+    known = section.of(*revolution, moved.map);
   if (!known) return std::nullopt;
   return std::move(section.found);
+}
+
+std::optional<Contours> profile_self_intersection(const SurfacePtr& surface, double tolerance) {
+  const Moved moved(surface);
+  const Interval u = surface->domain().u;
+  if (const auto* extrusion = dynamic_cast<const ExtrusionSurface*>(moved.original)) {
+    const CurvePtr curve = transformed(extrusion->curve(), moved.map);
+    const Vec3 d = moved.map.direction(extrusion->along());
+    const Frame frame = frame_about(Vec3(0), glm::normalize(d));
+    SelfMeeting meeting(AffineImage(curve, u, functionals(frame.x, frame.y, Vec3(0))), tolerance);
+    if (meeting.of(*extrusion, *curve, d)) return std::move(meeting.found);
+  } else if (const auto* revolution = dynamic_cast<const RevolutionSurface*>(moved.original)) {
+    if (!keeps_angles(moved.map.linear)) return std::nullopt;
+    const CurvePtr curve = transformed(revolution->curve(), moved.map);
+    const Frame frame = frame_of(revolution->axis(), moved.map);
+    const double size = bounds(*surface).diameter();
+    const auto out = way_to_profile(*curve, frame, size);
+    if (!out) return std::nullopt;
+    const Vec3 offset(-glm::dot(*out, frame.origin), -glm::dot(frame.z, frame.origin), 0);
+    SelfMeeting meeting(AffineImage(curve, u, functionals(*out, frame.z, offset)), tolerance);
+    if (meeting.of(*revolution, *curve, frame, size)) return std::move(meeting.found);
+  }
+  return std::nullopt;
 }
 
 }  // namespace lekalo::geometry

@@ -18,6 +18,9 @@
 #include "geometry/surfaces/analytic/sphere.h"
 #include "geometry/surfaces/analytic/torus.h"
 #include "geometry/surfaces/splines/bezier_surface.h"
+#include "geometry/surfaces/swept/extrusion.h"
+#include "geometry/surfaces/swept/revolution.h"
+#include "geometry/transformed.h"
 #include "support/tier.h"
 
 namespace lekalo::geometry::self_intersections_test {
@@ -257,6 +260,39 @@ TEST(SurfaceWithItself, ACylinderOverAnEightMeetsItselfInALine) {
   ASSERT_EQ(found.branches.size(), 1u);
   EXPECT_NEAR(contour_length(found.branches[0]).value, 2.5, 1e-13);
   check_promises(tube, found);
+}
+
+// The eight's two strands pass each other 0.4 apart along z.
+TEST(SurfaceWithItself, ExtrusionsMeetThemselvesWhereTheirProfileDoesAsItIsSeen) {
+  const auto eight = std::make_shared<FormulaCurve>(curve({"cos(t)", "sin(t)*cos(t)", "0.2*sin(t)"}, {0, kTurn}, true));
+  for (const double length : {1.0, 0.3}) {
+    const SurfacePtr wall = std::make_shared<ExtrusionSurface>(eight, Vec3(0, 0, length));
+    const SurfacePtr turned = transformed(wall, Affine::rotation(0.7, Vec3(1, 2, 2) / 3.0, Vec3(3, 1, 0)));
+    for (const SurfacePtr& one : {wall, turned}) {
+      const Contours found = self_intersection(one);
+      EXPECT_TRUE(found.complete && found.points.empty());
+      ASSERT_EQ(found.branches.size(), length > 0.4 ? 1u : 0u);
+      if (found.branches.empty()) continue;
+      EXPECT_NEAR(contour_length(found.branches[0]).value, 0.6, 1e-13);
+      check_promises(one, found);
+    }
+  }
+}
+
+// x = 23/7 where t (1 - t) = 1/7.
+TEST(SurfaceWithItself, RevolutionsMeetThemselvesInCircles) {
+  const std::vector<Vec3> points{{2, 0, -1}, {5, 0, 2}, {5, 0, -2}, {2, 0, 1}};
+  const auto loop = std::make_shared<NurbsCurve>(bezier_curve(points));
+  const Axis axis{Vec3(0), Vec3(0, 0, 1)};
+  for (const double angle : {kTurn, 1.5}) {
+    const SurfacePtr ring = std::make_shared<RevolutionSurface>(loop, axis, angle);
+    const Contours found = self_intersection(ring);
+    EXPECT_TRUE(found.complete && found.points.empty());
+    ASSERT_EQ(found.branches.size(), 1u);
+    EXPECT_EQ(found.branches[0].closed, angle == kTurn);
+    EXPECT_NEAR(contour_length(found.branches[0]).value, angle * 23 / 7, 1e-12);
+    check_promises(ring, found);
+  }
 }
 
 TEST(SurfaceWithItself, KleinsBottleOfAnEightMeetsItselfInACircle) {
