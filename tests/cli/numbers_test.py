@@ -274,6 +274,8 @@ geometry:
   ball: { type: sphere_surface, radius: 2 }
   block: { type: box, size: [2, 2, 2] }
   double: { type: self_intersection_curve, of: umbrella }
+  pipe: { type: cylinder_surface, frame: { origin: [1, 0, -2.6] }, radius: 1, height: 5.2 }
+  viviani: { type: intersection_curve, of: [ball, pipe] }
 """
         self.write("self.yaml", scene)
         self.assert_near(self.json_of("measure", "self.yaml", "double")["length"], 1.44, 1e-12)
@@ -287,6 +289,8 @@ geometry:
         self.assert_near(found("eight")["points"][0]["t_other"], math.pi, 1e-14)
         self.assertEqual([one["kind"] for one in found("cubic")["points"]], ["cusp"])
         self.assert_near(found("twice")["common"][0]["t_other"], [2 * math.pi, 4 * math.pi], 1e-12)
+        self.assertEqual([one["kind"] for one in found("viviani")["points"]], ["crossing"])
+        self.assert_near(found("viviani")["points"][0]["point"], [2, 0, 0], 1e-12)
         umbrella = found("umbrella")
         self.assert_near(umbrella["branches"][0]["length"], 1.44, 1e-12)
         self.assertEqual([one["kind"] for one in umbrella["points"]], ["end"])
