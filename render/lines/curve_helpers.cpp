@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "geometry/curves/operations/moving_frame.h"
 #include "geometry/queries/differential/curvature.h"
@@ -36,6 +37,34 @@ Vec3 curvature_vector(const CurveJet& at) {
   return across / (square * square);
 }
 
+// From a point of the curve to the tip of its tooth of scale 1; nothing where the curve rests.
+std::optional<Vec3> tooth(const Curve& curve, double t, const std::string& by) {
+  const CurveJet at = curve.evaluate(t, by == "torsion" ? 3 : 2);
+  if (!(glm::length(at.d[1]) > 0)) return std::nullopt;
+  if (by == "torsion") {
+    const CurveCurvature frame = curvature(at);
+    return frame.torsion * frame.binormal;
+  }
+  if (by == "geodesic_curvature" || by == "normal_curvature") {
+    const SurfaceBend bend = surface_bend(curve, t);
+    return -(by == "normal_curvature" ? bend.normal * bend.up : bend.geodesic * bend.across);
+  }
+  return -curvature_vector(at);
+}
+
+// Joints of pieces at which the teeth of both sides differ.
+std::vector<double> tooth_jumps(const Curve& curve, const std::string& by) {
+  std::vector<double> jumps;
+  const std::vector<CurvePiece> pieces = curve.pieces();
+  for (size_t k = 1; k < pieces.size(); ++k) {
+    const double t = pieces[k].domain.lo;
+    const std::optional<Vec3> before = tooth(curve, next_down(t), by), after = tooth(curve, next_up(t), by);
+    if (before && after && glm::length(*before - *after) > kJump * (glm::length(*before) + glm::length(*after)))
+      jumps.push_back(t);
+  }
+  return jumps;
+}
+
 std::vector<Frame> frames_on_surfaces(const Curve& curve, const std::vector<double>& at, const Fields& f) {
   std::vector<SurfacePtr> surfaces;
   for (const std::any& one : f.references("surfaces")) surfaces.push_back(std::any_cast<SurfacePtr>(one));
@@ -47,26 +76,29 @@ std::vector<Frame> frames_on_surfaces(const Curve& curve, const std::vector<doub
 
 }  // namespace
 
-CurvatureComb curvature_comb(const Curve& curve, int count, double scale, const std::string& by) {
+std::vector<CurvatureComb> curvature_combs(const Curve& curve, int count, double scale, const std::string& by) {
   const Interval domain = curve.domain();
-  CurvatureComb comb;
+  const std::vector<double> jumps = tooth_jumps(curve, by);
+  auto jump = jumps.begin();
+  std::vector<CurvatureComb> combs(1);
+  const auto add = [&](double t) {
+    const std::optional<Vec3> along = tooth(curve, t, by);
+    if (!along) return;
+    combs.back().foot_points.push_back(curve.point(t));
+    combs.back().tips.push_back(combs.back().foot_points.back() + scale * *along);
+  };
   for (int k = 0; k < count; ++k) {
     const double t = domain.clamp(domain.lo + domain.width() * k / (count - 1));
-    const CurveJet at = curve.evaluate(t, by == "torsion" ? 3 : 2);
-    if (!(glm::length(at.d[1]) > 0)) continue;
-    comb.foot_points.push_back(at.d[0]);
-    if (by == "torsion") {
-      const CurveCurvature frame = curvature(at);
-      comb.tips.push_back(at.d[0] + scale * frame.torsion * frame.binormal);
-    } else if (by == "geodesic_curvature" || by == "normal_curvature") {
-      const SurfaceBend bend = surface_bend(curve, t);
-      comb.tips.push_back(at.d[0] -
-                          scale * (by == "normal_curvature" ? bend.normal * bend.up : bend.geodesic * bend.across));
-    } else {
-      comb.tips.push_back(at.d[0] - scale * curvature_vector(at));
+    bool at_jump = false;
+    for (; jump != jumps.end() && *jump <= t; ++jump) {
+      at_jump = *jump == t;
+      add(next_down(*jump));
+      combs.emplace_back();
+      add(next_up(*jump));
     }
+    if (!at_jump) add(t);
   }
-  return comb;
+  return combs;
 }
 
 CurveJumps curve_jumps(const Curve& curve) {
@@ -155,8 +187,8 @@ std::vector<Vec3> helper_points(const Object& object) {
     if (const auto* mesh = std::get_if<MeshPtr>(&object.shape); mesh && is_mesh_figure(helper.type))
       for (const CurvePtr& line : mesh_figure(**mesh, helper).lines) add_places(*line);
     if (helper.type == "comb" && curve) {
-      const CurvatureComb comb = curvature_comb(**curve, f.integer("count"), f.number("scale"), f.text("by"));
-      points.insert(points.end(), comb.tips.begin(), comb.tips.end());
+      for (const CurvatureComb& comb : curvature_combs(**curve, f.integer("count"), f.number("scale"), f.text("by")))
+        points.insert(points.end(), comb.tips.begin(), comb.tips.end());
     }
     if (helper.type == "frames" && curve && (*curve)->domain().width() < kInfinity)
       for (const Frame& frame : helper_frames(**curve, helper))

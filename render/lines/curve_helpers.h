@@ -11,11 +11,12 @@ namespace lekalo::render {
 // Teeth across the curve at `count` even parameters: r - scale k n, on the side away from the centre of curvature (k n
 // the vector of curvature); `by` torsion r + scale chi b along the binormal; by geodesic_curvature or normal_curvature
 // of a curve on a surface only the part of k n along the surface or along its normal. Where the curve rests there are
-// none.
+// none. Where the teeth jump, as at a joint of a line and an arc, one comb ends and another begins, with both teeth.
 struct CurvatureComb {
   std::vector<geometry::Vec3> foot_points, tips;
 };
-CurvatureComb curvature_comb(const geometry::Curve& curve, int count, double scale, const std::string& by);
+std::vector<CurvatureComb> curvature_combs(const geometry::Curve& curve, int count, double scale,
+                                           const std::string& by);
 
 // Where the pieces of a curve do not meet: its own points there, and its limits from either side that are others.
 struct CurveJumps {

@@ -297,12 +297,13 @@ void StrokeCollector::add_colored(const CurvePtr& curve, const Helper& helper) {
 }
 
 void StrokeCollector::add_comb(const Curve& curve, const Helper& helper) {
-  const CurvatureComb comb =
-      curvature_comb(curve, helper.values.integer("count"), helper.values.number("scale"), helper.values.text("by"));
-  for (size_t k = 0; k < comb.foot_points.size(); ++k)
-    if (comb.tips[k] != comb.foot_points[k])
-      stroke(std::make_shared<Segment>(comb.foot_points[k], comb.tips[k]), helper.style, helper.hidden);
-  if (helper.values.boolean("envelope")) polygon(comb.tips, false, helper.style, helper.hidden);
+  for (const CurvatureComb& comb : curvature_combs(curve, helper.values.integer("count"), helper.values.number("scale"),
+                                                   helper.values.text("by"))) {
+    for (size_t k = 0; k < comb.foot_points.size(); ++k)
+      if (comb.tips[k] != comb.foot_points[k])
+        stroke(std::make_shared<Segment>(comb.foot_points[k], comb.tips[k]), helper.style, helper.hidden);
+    if (helper.values.boolean("envelope")) polygon(comb.tips, false, helper.style, helper.hidden);
+  }
 }
 
 void StrokeCollector::add_frames(const Curve& curve, const Helper& helper) {
