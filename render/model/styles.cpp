@@ -53,7 +53,8 @@ TypeDeclaration style_type() {
       .optional("fill", color().non_negative().or_word({"none"}), "inside of markers, and behind texts")
       .optional("font", choice({"serif", "sans", "mono"}), "of texts outside formulas")
       .optional("text_size", page_length().positive().at_most(200), "of texts")
-      .optional("arrows", choice({"none", "start", "end", "both"}), "heads of lines")
+      .optional("arrows", choice({"none", "start", "end", "both"}),
+                "heads of lines; arrows and dimensions have theirs if no style says another")
       .optional("arrow_size", page_length().positive().at_most(50), "length of an arrow head")
       .built_by([](const Fields& f) {
         if (f.holds<std::vector<double>>("dash")) {

@@ -265,6 +265,12 @@ void Builder::build_panels(const std::optional<Fields>& drawing, Model& model) {
     if (read.detail && !detail_of(panel.drawing)) wrong.insert(name);
     model.panels.push_back(std::move(panel));
   });
+  // In the order in which the scene names them.
+  const auto number_of = [&](const Panel& panel) {
+    return section("panels")->find_entry(panel.name.substr(0, panel.name.find('.')));
+  };
+  std::stable_sort(model.panels.begin(), model.panels.end(),
+                   [&](const Panel& a, const Panel& b) { return number_of(a) < number_of(b); });
   for (const auto& [name, thing] : sections_["panels"])
     for (const NamedThing::Member& one : thing.members)
       if (one.state == NamedThing::Member::State::wrong) wrong.insert(one.name.empty() ? name : name + "." + one.name);

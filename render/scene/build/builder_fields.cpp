@@ -65,15 +65,18 @@ bool Builder::read_field(const Field& field, const Value& value, const Counters&
                       ? read_group(field.type, value, counters, "'" + field.name + "'")
                       : read(field.type, value, counters);
     if (!result) return false;
-    // An inline style changes the one that the field has by default.
-    if (std::any_cast<StyleChanges>(&*result) && value.is_map() && !value.find("like") && !field.default_text.empty()) {
-      const auto base = read(field.type, default_value(field.default_text), {});
-      if (const auto* style = base ? std::any_cast<StyleChanges>(&*base) : nullptr) {
-        StyleChanges changed{{}, style->fields};
-        changed.fields.override_by(std::any_cast<const StyleChanges&>(*result).fields);
-        result = changed;
-      }
-    }
+    if (auto* style = std::any_cast<StyleChanges>(&*result); style && !field.default_text.empty())
+      if (const auto base = read(field.type, default_value(field.default_text), {}))
+        if (const auto* usual = std::any_cast<StyleChanges>(&*base)) {
+          // An inline style changes the one that the field has by default; with a named one heads stay.
+          if (value.is_map() && !value.find("like")) {
+            StyleChanges changed{{}, usual->fields};
+            changed.fields.override_by(style->fields);
+            *style = changed;
+          } else if (usual->fields.has("arrows") && !style->fields.has("arrows")) {
+            style->fields.set("arrows", usual->fields.text("arrows"));
+          }
+        }
     fields.set(field.name, *std::move(result));
     // What is asked for by its name; whoever is built of the fields finds what is said.
     if (field.name == "attribute") {

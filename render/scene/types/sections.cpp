@@ -162,7 +162,11 @@ const std::vector<SectionDeclaration>& sections() {
        {Category::style}},
       {"drawing", "page-wide choices of drawings", Shape::fields, drawing_fields(), {}},
       {"panels", "several views on one page", Shape::named, {}, {Category::panel}},
-      {"layout", "arrangement of the panels; one row by default", Shape::fields, layout_fields(), {}},
+      {"layout",
+       "arrangement of the panels; by default one row, in the order of the scene",
+       Shape::fields,
+       layout_fields(),
+       {}},
       {"outputs", "files to write", Shape::list, output_fields(), {}}};
   return all;
 }
