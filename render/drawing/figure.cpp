@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <numeric>
 #include <set>
@@ -30,6 +31,8 @@ namespace lekalo::render {
 using namespace geometry;
 
 namespace {
+
+constexpr double kNearlyAsHigh = 2;  // heights of a title
 
 // What objects say of fills stands in the drawing, or a note says why not.
 void add_filled_curves(Model& model, Figure& figure) {
@@ -171,6 +174,7 @@ class Panels {
     each(side_by_side_, [&](size_t k) { views_[k]->find_lines(side_by_side_ ? nullptr : &solids); });
     const auto found = std::chrono::steady_clock::now();
     for (size_t k = 0; k < views_.size(); ++k) in_panel(k, [&] { views_[k]->annotate(); });
+    align_titles();
     std::mutex telling;
     const auto annotated = std::chrono::steady_clock::now();
     each(true, [&](size_t k) {
@@ -193,6 +197,19 @@ class Panels {
   }
 
  private:
+  // Titles of a row that stand nearly as high as its highest stand as high.
+  void align_titles() {
+    std::map<double, std::vector<Label*>> rows;  // by their upper edges
+    for (size_t k = 0; k < views_.size(); ++k)
+      if (Label* title = views_[k]->title()) rows[placed_[k].at.y].push_back(title);
+    for (const auto& [y, titles] : rows) {
+      double highest = kInfinity;
+      for (const Label* title : titles) highest = std::min(highest, title->at.y);
+      for (Label* title : titles)
+        if (title->at.y - highest < kNearlyAsHigh * (title->text.ascent + title->text.descent)) title->at.y = highest;
+    }
+  }
+
   // Views side by side take less than the sum of their times: each stage gets its share of what passed.
   void share_time(double passed) {
     LineStatistics& s = figure_.statistics;

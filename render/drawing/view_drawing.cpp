@@ -108,6 +108,11 @@ class ViewDrawing::Work {
     if (!model_->drawing.title.empty()) add_title(view_, under_title(), page_);
     note_left_out(std::move(work_.left_out));
   }
+  Label* title() {
+    const auto found =
+        std::find_if(page_.labels.begin(), page_.labels.end(), [](const Label& one) { return one.kind == "title"; });
+    return found == page_.labels.end() ? nullptr : &*found;
+  }
   void see(const std::function<void(double)>& progress) {
     one_faces_ = std::move(work_.one_faces);
     lines_ = visible_lines(world(), std::move(work_), progress);
@@ -430,6 +435,7 @@ ViewDrawing::ViewDrawing(std::shared_ptr<const Model> model, const View& view, b
 ViewDrawing::~ViewDrawing() = default;
 void ViewDrawing::find_lines(SolidLines* solids) { work_->find_lines(solids); }
 void ViewDrawing::annotate() { work_->annotate(); }
+Label* ViewDrawing::title() { return work_->title(); }
 void ViewDrawing::see(const std::function<void(double)>& progress) { work_->see(progress); }
 void ViewDrawing::draw() { work_->draw(); }
 

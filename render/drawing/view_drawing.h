@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "render/drawing/annotations/label_placement.h"
 #include "render/drawing/figure_sheet.h"
 #include "render/drawing/view.h"
 #include "render/lines/strokes.h"
@@ -23,6 +24,7 @@ class ViewDrawing {
   // side.
   void find_lines(SolidLines* solids);  // of solids other views may know lines
   void annotate();
+  Label* title();  // null: none, or that of a graph
   void see(const std::function<void(double)>& progress);
   void draw();
 

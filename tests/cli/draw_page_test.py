@@ -918,6 +918,97 @@ image: { size: [120 mm, 60 mm], margin: 3 mm }
         said = self.run_program("draw", "scene.yaml", "-o", "scene.svg", code=SCENE_ERROR)[1]
         self.assertIn("of the `columns` of the layout the narrowest has 0.0", said)
 
+    def test_combs_jump_at_joints(self):
+        """A segment and an arc of radius 2: the tooth at their joint is 1/2 long; no envelope leans over the segment."""
+        root, _ = self.drawn("""lekalo: 1
+geometry:
+  c: { type: composite_curve, of: [{ type: segment, from: [0, 0], to: [3, 0] }, { type: circle, center: [3, 2], radius: 2, arc: [-90, 0] }] }
+objects: [{ shape: c, show: { comb: { scale: -1, count: 8 } } }]
+camera: { view: top }
+image: { size: [80 mm, auto] }
+""")
+        line, = self.of_class(root, "curve")
+        xs, ys = zip(*self.places(line))
+        unit = (max(xs) - min(xs)) / 5
+        joint, foot = min(xs) + 3 * unit, max(ys)
+        comb = [self.places_of(path) for group in self.of_class(root, "comb") for path in group.iter(SVG + "path")]
+        self.assert_near([y for path in comb for x, y in path if x < joint - 0.01], [foot] * sum(
+            x < joint - 0.01 for path in comb for x, _ in path), 0.01)
+        (a, b), = [step for path in comb for step in zip(path, path[1:])
+                   if abs(step[0][0] - joint) + abs(step[1][0] - joint) < 0.02]
+        self.assert_near(abs(a[1] - b[1]), 0.5 * unit, 0.02)
+        self.assert_near(max(a[1], b[1]), foot, 0.02)
+
+    def test_named_styles_keep_heads(self):
+        """Of arrows and dimensions, unless a style says otherwise."""
+        def heads(annotation, styles=""):
+            root, _ = self.drawn(self.annotated(annotation) + styles)
+            return sum(path.get("d").endswith("Z") for path in root.iter(SVG + "path"))
+        bare = heads("{ type: label, at: [0, 0], text: a }")
+        arrow = "{ type: arrow, from: [-1, 0], to: [1, 0], style: %s }"
+        for style in ("thin", "axis", "{ like: axis }", "{ color: red }"):
+            self.assertEqual(heads(arrow % style), bare + 1, style)
+        self.assertEqual(heads(arrow % "plain", "styles: { plain: { arrows: none } }\n"), bare)
+        self.assertEqual(heads(arrow % "{ like: thin, arrows: both }"), bare + 2)
+        self.assertEqual(heads("{ type: linear_dimension, from: [-1, 0], to: [1, 0], style: thin }"), bare + 2)
+
+    def test_panels_stand_in_the_order_of_the_scene(self):
+        root, _ = self.drawn(CIRCLE.replace("camera: { view: top }", "panels: { z: { title: one, camera: { view: top } }, "
+                                            "a: { title: two, camera: { view: top } } }"))
+        self.assertLess(self.place_of_text(root, "one")[0][0], self.place_of_text(root, "two")[0][0])
+
+    def test_views_of_a_row_are_aligned(self):
+        """By what they show, whatever annotations one of them has."""
+        root, _ = self.drawn("""lekalo: 1
+geometry: { b: { type: box, size: [20, 10, 8] } }
+info: { unit: mm }
+panels:
+  front: { camera: { view: front }, drawing: { annotations: [{ type: leader, at: [3, 0, 8], to: [5, 0, 20], text: a }] } }
+  side: { camera: { view: left } }
+layout: { rows: [[front, side]], scale: 1 }
+image: { size: [100 mm, auto] }
+""")
+        front, side = [self.places(group) for panel in self.of_class(root, "panel")
+                       for group in self.of_class(panel, "sharp")]
+        for which in (min, max):
+            self.assert_near(which(y for _, y in front), which(y for _, y in side), 1e-3)
+
+    def test_titles_of_a_row_have_one_baseline(self):
+        root, _ = self.drawn(CIRCLE.replace("camera: { view: top }", """panels:
+  a: { title: cone, camera: { view: top } }
+  b: { title: group, camera: { view: top } }
+  c: { title: upper, camera: { view: top }, objects: [{ shape: { type: ellipse, semi_axes: [1, 1.1] } }] }"""))
+        heights = [self.place_of_text(root, words)[0][1] for words in ("cone", "group", "upper")]
+        self.assert_near(heights, [heights[0]] * 3, 1e-3)
+
+    def test_texts_of_leaders_turn_from_lines(self):
+        """A line stands to the right of the leader's end: its text is above."""
+        scene = """lekalo: 1
+geometry: { s: { type: segment, from: [1, -1], to: [1, 1] }, t: { type: segment, from: [-1, -1], to: [-1, 1] } }
+camera: { view: top }
+drawing: { annotations: [{ type: leader, at: [-1, 0], to: [0.8, 0.1], text: words%s }] }
+image: { size: [80 mm, auto] }
+"""
+        beside, _ = self.drawn(scene % ", side: right")
+        above, _ = self.drawn(scene % "")
+        (_, y), _ = self.place_of_text(beside, "words")
+        (_, higher), _ = self.place_of_text(above, "words")
+        self.assertLess(higher, y - 1)
+
+    def test_center_lines_of_circles(self):
+        """Of circles, and of arcs that make one together; none of other arcs. Each passes the circle by 3 mm."""
+        for curves, count in (("c: { type: circle, radius: 1 }", 2),
+                              ("a: { type: circle, radius: 1, arc: [0, 180] }, b: { type: circle, radius: 1, arc: [180, 360] }", 2),
+                              ("a: { type: circle, radius: 1, arc: [0, 180] }", 0),
+                              ("a: { type: ellipse, semi_axes: [2, 1] }", 0)):
+            root, _ = self.drawn("lekalo: 1\ngeometry: { %s }\ncamera: { view: top }\ndrawing: { center_lines: true }\n"
+                                 "image: { size: [80 mm, auto] }\n" % curves)
+            lines = [self.places_of(path) for group in self.of_class(root, "center_line") for path in group.iter(SVG + "path")]
+            self.assertEqual(len(lines), count, curves)
+            if count:
+                xs = [x for group in self.of_class(root, "curve") for x, _ in self.places(group)]
+                self.assert_near(max(x for line in lines for x, _ in line) - max(xs), 3, 0.01)
+
     def test_texts_beyond_the_page(self):
         """What goes over an edge is named, with what has room for it; what a graph places itself stays on the page."""
         def warnings(margin, *annotations):

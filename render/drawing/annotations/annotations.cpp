@@ -178,8 +178,15 @@ void add_leader(AnnotationWork& work) {
     work.shape(drawn_mark(dot, at, work.style().opacity, work.view()));
   }
   Label label = work.page_label(work.words("text"), to);
-  label.side = f.has("side") ? f.text("side") : to.x >= at.x ? "right" : "left";
   label.on_page = f.get<Anchor>("to").on_page;
+  const std::string across = to.x >= at.x ? "right" : "left", up = to.y >= at.y ? "below" : "above";
+  if (f.has("side"))
+    label.side = f.text("side");
+  else if (label.on_page)
+    label.side = across;
+  else  // on from the line, or turned away from what is in the way
+    for (const std::string& side : {across, up + " " + across, up, (up == "above" ? "below " : "above ") + across})
+      label.spots.push_back({to, side, label.distance, {}});
   work.add(std::move(label));
 }
 
@@ -305,7 +312,11 @@ void add_annotations(const View& view, LineWork& lines, PageWork& page) {
 SheetText title_text(const Model& model) {
   Style style = model.styles.at("label");
   style.text_size *= kTitle;
-  return text_in(style, model.drawing.title);
+  SheetText text = text_in(style, model.drawing.title);
+  // As high as brackets, so that titles side by side have one baseline.
+  const SheetText strut = text_in(style, "(");
+  text.ascent = std::max(text.ascent, strut.ascent), text.descent = std::max(text.descent, strut.descent);
+  return text;
 }
 
 void add_title(const View& view, SheetBox under, PageWork& page) {

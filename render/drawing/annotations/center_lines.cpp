@@ -53,6 +53,15 @@ double turn_of(const Curve& arc, const Circle& circle) {
   return std::abs(sum);
 }
 
+// A circle, or an arc of one.
+std::optional<RoundFace> round_curve(const Curve& curve) {
+  if (!(curve.domain().width() < kInfinity) || !is_round(curve)) return std::nullopt;
+  const Interval t = curve.domain();
+  const auto at = [&](double x) { return curve.point(t.lo + x * t.width()); };
+  const Circle circle = arc_through(at(0), at(0.31), at(0.67));
+  return RoundFace{{circle.frame().origin, circle.frame().z}, turn_of(curve, circle), circle.radius(), Interval(0)};
+}
+
 std::optional<RoundFace> round_face(const SurfacePtr& surface, const std::vector<Vec3>& border) {
   if (!surface->bounded() || !is_round(*surface)) return std::nullopt;
   if (const auto known = canonical(surface);
@@ -130,6 +139,8 @@ bool is_taken_away(const RoundFace& face, const Shape& tool, const Affine& from_
 
 void add_faces(const Object& object, const Affine& to_world, std::vector<RoundFace>& faces) {
   if (const auto* body = std::get_if<BodyPtr>(&object.shape)) add_faces(transformed(**body, to_world), faces);
+  if (const auto* curve = std::get_if<CurvePtr>(&object.shape))
+    if (const auto arc = round_curve(*transformed(*curve, to_world))) faces.push_back(*arc);
   const auto* shape = std::get_if<ShapePtr>(&object.shape);
   if (!shape) return;
   // What a section cut is the solid, less what it took away: that has no axes here.

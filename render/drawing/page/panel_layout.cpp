@@ -52,11 +52,10 @@ void include(const SheetItem& item, SheetBox& part) {
 
 // What the panel shows in millimetres, and the room that annotations take around it.
 struct Extent {
-  Vec2 half{0};              // of what is shown
-  Vec2 before{0}, after{0};  // left and above, right and below of it
+  Vec2 middle{0};            // of its objects: by these views of a row or column are aligned
+  Vec2 before{0}, after{0};  // left and above, right and below of the middle
   CameraPtr camera;          // a picture whose pixels are as large as `millimetres` says
   double millimetres = 1;
-  SheetBox shown;
 };
 
 // The room of a legend in a panel that is no graph: that of graphs is theirs.
@@ -86,15 +85,16 @@ Extent extent_at(const Model& model, double scale, const std::string& name) {
                  "a parallel camera, or scale: fit");
   extent.millimetres = scale * extent.camera->pixel_size(Vec3(0));
   const FramedContent shown(model.objects);
-  extent.shown = shown_box(model, shown, *extent.camera, extent.millimetres);
-  extent.half = 0.5 * extent.shown.size();
+  SheetBox objects = box_under_title(model, shown, *extent.camera, extent.millimetres);
+  if (!(objects.lo.x < kInfinity)) objects = shown_box(model, shown, *extent.camera, extent.millimetres);
+  extent.middle = 0.5 * (objects.lo + objects.hi);
   const SheetBox all = annotated_box(model, shown, *extent.camera, extent.millimetres);
-  extent.before = extent.shown.lo - all.lo + Vec2(kFree);
-  extent.after = all.hi - extent.shown.hi + Vec2(kFree);
-  const Insets legend = legend_room(model, *extent.camera, Vec2(0), extent.shown.size() + extent.before + extent.after);
+  extent.before = extent.middle - all.lo + Vec2(kFree);
+  extent.after = all.hi - extent.middle + Vec2(kFree);
+  const Insets legend = legend_room(model, *extent.camera, Vec2(0), extent.before + extent.after);
   extent.before += Vec2(legend.left, legend.top), extent.after += Vec2(legend.right, legend.bottom);
   const Vec2 taken(legend.left + legend.right, legend.top + legend.bottom);
-  const Vec2 missing = legend.least + taken - (extent.shown.size() + extent.before + extent.after);
+  const Vec2 missing = legend.least + taken - (extent.before + extent.after);
   extent.before += 0.5 * glm::max(missing, Vec2(0)), extent.after += 0.5 * glm::max(missing, Vec2(0));
   return extent;
 }
@@ -302,10 +302,10 @@ Tracks tracks_at(const Model& page, const Rows& rows, const PanelsByName& panels
     for (size_t j = 0; j < rows[i].size(); ++j) {
       if (rows[i][j].empty()) continue;
       const Extent extent = extent_at(model_of(page, *panels.at(rows[i][j])), scale, rows[i][j]);
-      across[j].before = std::max(across[j].before, extent.half.x + extent.before.x);
-      across[j].after = std::max(across[j].after, extent.half.x + extent.after.x);
-      down[i].before = std::max(down[i].before, extent.half.y + extent.before.y);
-      down[i].after = std::max(down[i].after, extent.half.y + extent.after.y);
+      across[j].before = std::max(across[j].before, extent.before.x);
+      across[j].after = std::max(across[j].after, extent.after.x);
+      down[i].before = std::max(down[i].before, extent.before.y);
+      down[i].after = std::max(down[i].after, extent.after.y);
       result.extents.emplace(rows[i][j], extent);
     }
   const auto sum = [&](const std::vector<Track>& tracks) {
@@ -357,11 +357,10 @@ void add_scaled(const Model& page, const Rows& rows, const PanelsByName& panels,
         Model model = model_of(page, *panels.at(rows[i][j]));
         // A window of the trial's picture, its middle on the lines of row and column.
         const double per_pixel = millimetres_of_pixel(page), zoom = extent.millimetres / per_pixel;
-        const Vec2 middle = 0.5 * (extent.shown.lo + extent.shown.hi);
         const Vec2 size(across[j].size(), down[i].size());
         const Insets legend = legend_room(model, *extent.camera, {x, at.y}, size);
         const Vec2 corner =
-            (middle - Vec2(across[j].before - legend.left, down[i].before - legend.top)) / extent.millimetres;
+            (extent.middle - Vec2(across[j].before - legend.left, down[i].before - legend.top)) / extent.millimetres;
         model.camera_frames = false;  // all has its room
         model.make_camera = [camera = extent.camera, corner, zoom](int w, int h) {
           return window_of(camera, corner.x, corner.y, zoom, w, h);
