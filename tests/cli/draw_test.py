@@ -328,6 +328,25 @@ drawing: { ground: GROUND }
         for word in ("'segment'", "'box'", "'from'", "'at'", "'field_of_view'"):
             self.assertIn(word, told)
 
+    def test_hints_name_words_fields_and_points(self):
+        """A word that is no style, a list where fields are wanted, a curve where a point is, a family of points."""
+        def said(line):
+            self.write("scene.yaml", "lekalo: 1\ngeometry:\n  c: { type: circle, radius: 1 }\n  b: { type: box, size: [1, 1, 1] }\n" + line)
+            return self.run_program("check", "scene.yaml", code=3)[1]
+        told = said("objects: [{ shape: b, lines: { sharp: thick, hidden: dash } }]\n")
+        self.assertIn("unknown word 'dash'", told)
+        self.assertIn("hint: one of show, drop, dashed, thin, faded, or the name of a style", told)
+        self.assertIn("(did you mean 'mine'?)", said("styles: { mine: {} }\nobjects: [{ shape: b, lines: { sharp: thick, hidden: mien } }]\n"))
+        self.assertIn("hint: its fields are boundary, sharp, smooth", said("objects: [{ shape: b, lines: [sharp] }]\n"))
+        self.assertIn("hint: a point on it: { of: c, t: 0.5 }",
+                      said("drawing: { annotations: [{ type: label, at: c, text: a }] }\n"))
+        self.assertIn("hint: on the page: { page: [5 mm, 8 mm] }",
+                      said("drawing: { annotations: [{ type: label, at: [5 mm, 8 mm], text: a }] }\n"))
+        self.assertIn("hint: write { dash: [1.5 mm, 0.75 mm] }", said("objects: [{ shape: c, lines: { curve: dashed } }]\n"))
+        self.assertIn("{ repeat: { k: 0..5 }, of: a_curve, t: k }", said("  p: { repeat: { k: 0..2 }, type: point, at: [k, 0] }\n"))
+        # All faces of a body with few.
+        self.assertIn("b.z_max", said("  f: { type: fillet_body, of: b, fillets: { edges: { of_face: top }, radius: 0.1 } }\n"))
+
     def test_sides_are_filled_with_their_own_materials(self):
         """A bowl shows its outside in front and its inside behind."""
         self.scene("s: { type: formula_surface, z: '0.9*x^2 + 0.9*y^2', domain: { u: [-1, 1], v: [-1, 1] } }",

@@ -15,7 +15,7 @@ namespace lekalo::geometry {
 
 namespace {
 
-constexpr size_t kMaxNames = 5;     // in hints
+constexpr size_t kMaxNames = 8;     // in hints
 constexpr double kSameLine = 1e-9;  // of the body's size: what lies so near to an edge is on it
 constexpr double kSameWay = 1e-9;   // radians
 constexpr int kSamples = 16;        // of a smooth piece of an edge

@@ -84,6 +84,12 @@ std::optional<Vec3> Builder::read_point(const Value& value, const Counters& coun
 std::optional<Anchor> Builder::read_anchor(const Value& value, const Counters& counters) {
   const Value* page = value.find("page");
   if (!page) {
+    if (value.is_sequence() && value.items.size() == 2 &&
+        std::ranges::all_of(value.items, [](const Value& one) { return static_cast<bool>(read_page_length(one)); })) {
+      diagnostics_.error(value.place, "a point of the scene has no units",
+                         fmt::format("on the page: {{ page: [{}, {}] }}", value.items[0].text, value.items[1].text));
+      return std::nullopt;
+    }
     const auto point = read_point(value, counters);
     return point ? std::optional(Anchor{*point, false}) : std::nullopt;
   }

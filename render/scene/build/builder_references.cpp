@@ -25,6 +25,13 @@ bool contains(std::span<const Category> categories, Category category) {
   return std::find(categories.begin(), categories.end(), category) != categories.end();
 }
 
+// A point on something that is none itself.
+std::string hint_of_place(const std::string& name, Category category) {
+  if (category == Category::curve) return fmt::format("a point on it: {{ of: {}, t: 0.5 }}", name);
+  if (category == Category::surface) return fmt::format("a point on it: {{ of: {}, u: 0.5, v: 0.5 }}", name);
+  return "write [x, y, z], the name of a point, or a place such as { of: curve, t: 0.5 }";
+}
+
 // { of: curve, t: 1 } and the like: a point, no thing of some type.
 bool is_place(const Value& map) {
   static const std::set<std::string> known{"of", "t", "s", "u", "v", "point", "repeat"};
@@ -239,8 +246,10 @@ std::optional<std::vector<Built>> Builder::named(const Value& value, std::span<c
   }
   for (const Built& built : result)
     if (!contains(wanted, built.category)) {
-      diagnostics_.error(value.place, fmt::format("'{}' is {}, but {} is wanted here", value.text,
-                                                  describe({&built.category, 1}), describe(wanted)));
+      diagnostics_.error(value.place,
+                         fmt::format("'{}' is {}, but {} is wanted here", value.text, describe({&built.category, 1}),
+                                     describe(wanted)),
+                         contains(wanted, Category::point) ? hint_of_place(value.text, built.category) : std::string());
       return std::nullopt;
     }
   return result;

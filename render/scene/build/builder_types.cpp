@@ -113,7 +113,9 @@ const TypeDeclaration* Builder::type_of(const Value& map, std::span<const Catego
   const TypeDeclaration* type = find_type(name, wanted);
   const Place& place = given ? given->place : map.place;
   if (name == "point" && contains(wanted, Category::point)) {
-    diagnostics_.error(place, "unknown type 'point'", "a point is written as its coordinates: P: [1, 2, 0]");
+    diagnostics_.error(place, "unknown type 'point'",
+                       map.find("repeat") ? "a point of a family is a place: { repeat: { k: 0..5 }, of: a_curve, t: k }"
+                                          : "a point is written as its coordinates: P: [1, 2, 0]");
     return nullptr;
   }
   if (!type) {

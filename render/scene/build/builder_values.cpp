@@ -12,6 +12,17 @@ namespace lekalo::render {
 
 using geometry::Kind;
 
+namespace {
+
+std::string hint_of_fields(const std::vector<Field>& fields) {
+  constexpr size_t kMaxFields = 12;
+  std::vector<std::string> names;
+  for (const Field& field : fields) names.push_back(field.name);
+  return "its fields are " + listed(names, kMaxFields);
+}
+
+}  // namespace
+
 std::string range_text(const FieldType& type, double scale) {
   const bool lower = std::isfinite(type.minimum), upper = std::isfinite(type.maximum);
   if (lower && upper && !type.minimum_excluded && !type.maximum_excluded)
@@ -119,11 +130,12 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
     return std::nullopt;
   };
   const auto unknown_word = [&]() -> std::optional<std::any> {
-    diagnostics_.error(value.place,
-                       value.is_scalar()
-                           ? fmt::format("unknown word '{}'{}", value.text, suggestion(value.text, type.choices))
-                           : fmt::format("expected a word, found {}", kind_name(value)),
-                       fmt::format("one of {}", listed(type.choices)));
+    diagnostics_.error(
+        value.place,
+        value.is_scalar() ? fmt::format("unknown word '{}'{}", value.text, suggestion(value.text, type.choices))
+                          : fmt::format("expected a word, found {}", kind_name(value)),
+        fmt::format("one of {}{}", listed(type.choices),
+                    type.kind == Kind::reference ? fmt::format(", or the name of {}", describe(type.categories)) : ""));
     return std::nullopt;
   };
   if (!type.choices.empty() && type.kind != Kind::choice && type.kind != Kind::words && type.kind != Kind::knots &&
@@ -232,11 +244,15 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
       if (type.fields && value.is_map() &&
           std::ranges::any_of(*type.fields, [&](const Field& field) { return value.find(field.name) != nullptr; }))
         return read_group(type, value, counters, "this map");
-      // A slip in one of the words, where nothing has that name.
-      if (value.is_scalar() && !suggestion(value.text, type.choices).empty()) {
+      // A slip in one of the words, where nothing has that name, nor one like it.
+      if (value.is_scalar() && !type.choices.empty() && !read_number(value)) {
         const Value* names = section(section_of(type.categories.front()));
-        if (!names || !find_named(*names, value.text, value.place.file ? value.place.file->scope : "").entry)
-          return unknown_word();
+        std::vector<std::string> known;
+        if (names)
+          for (const Entry& entry : names->entries) known.push_back(entry.key.name);
+        if (!suggestion(value.text, type.choices).empty() || suggestion(value.text, known).empty())
+          if (!names || !find_named(*names, value.text, value.place.file ? value.place.file->scope : "").entry)
+            return unknown_word();
       }
       auto built = refer(value, counters, type.categories);
       if (!built) return std::nullopt;
@@ -250,14 +266,16 @@ std::optional<std::any> Builder::read(const FieldType& type, const Value& value,
     case Kind::group:
       if (value.is_map()) return read_group(type, value, counters, "this map");
       if (value.is_scalar() && !type.choices.empty()) return unknown_word();
-      diagnostics_.error(value.place, fmt::format("expected a map of fields, found {}", kind_name(value)));
+      diagnostics_.error(value.place, fmt::format("expected a map of fields, found {}", kind_name(value)),
+                         hint_of_fields(*type.fields));
       return std::nullopt;
     case Kind::groups: {
       std::vector<Fields> all;
       for (const Scoped& item : items(value, counters)) {
         if (!item.value->is_map()) {
           diagnostics_.error(item.value->place,
-                             fmt::format("expected a map of fields, found {}", kind_name(*item.value)));
+                             fmt::format("expected a map of fields, found {}", kind_name(*item.value)),
+                             hint_of_fields(*type.fields));
           return std::nullopt;
         }
         auto one = read_fields(*type.fields, *item.value, item.counters, "this map", {"repeat"});

@@ -83,6 +83,9 @@ std::vector<std::string> types_meant_by(std::string_view word, std::span<const C
 
 std::string maps_with_word(std::string_view word, std::span<const Category> wanted) {
   std::string maps;
+  const bool style = std::find(wanted.begin(), wanted.end(), Category::style) != wanted.end();
+  if (style && word == "dashed") return "{ dash: [1.5 mm, 0.75 mm] }";
+  if (style && word == "dotted") return "{ dash: [0.3 mm, 0.8 mm] }";
   for (const TypeDeclaration& type : all_types()) {
     if (std::find(wanted.begin(), wanted.end(), type.category) == wanted.end()) continue;
     for (const geometry::Field& field : type.fields) {
