@@ -145,6 +145,7 @@ class SelfIntersections {
           return one.kind != SelfIntersectionKind::cusp && other.kind != SelfIntersectionKind::cusp &&
                  holds_between(curve_, one.s, other.s, [&](double s) { return !others_at(s, by).empty(); });
         });
+    std::erase_if(result_.points, [&](const CurveSelfIntersection& one) { return is_beside_cusp(one); });
     std::sort(result_.points.begin(), result_.points.end(),
               [](const CurveSelfIntersection& x, const CurveSelfIntersection& y) {
                 return x.s != y.s ? x.s < y.s : x.t < y.t;
@@ -342,6 +343,26 @@ class SelfIntersections {
     const double t = on_one_side(domain_.clamp(at));
     const CurveSelfIntersection cusp{SelfIntersectionKind::cusp, t, t, curve_.point(t), 0};
     if (!is_known(cusp)) result_.points.push_back(cusp);
+  }
+
+  // Whether a cusp lies between both parameters, from which both arms stay within the tolerance of each other.
+  bool is_beside_cusp(const CurveSelfIntersection& one) const {
+    if (one.kind == SelfIntersectionKind::cusp) return false;
+    return std::any_of(result_.points.begin(), result_.points.end(), [&](const CurveSelfIntersection& cusp) {
+      if (cusp.kind != SelfIntersectionKind::cusp) return false;
+      const auto from_cusp = [&](double t) {
+        const double by = t - cusp.s;
+        return is_closed_ ? by - domain_.width() * std::round(by / domain_.width()) : by;
+      };
+      const double arm = from_cusp(one.s), other_arm = from_cusp(one.t);
+      if (!(arm * other_arm < 0)) return false;
+      return holds_between(curve_, cusp.s, one.s, [&](double s) {
+        const std::vector<double> others = others_at(s);
+        return std::any_of(others.begin(), others.end(), [&](double t) {
+          return from_cusp(t) * other_arm > 0 && std::abs(from_cusp(t)) <= std::abs(other_arm) + near();
+        });
+      });
+    });
   }
 
   // The seam of a closed curve is its begin.
