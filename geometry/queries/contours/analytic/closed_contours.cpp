@@ -303,13 +303,55 @@ bool is_whole(const CanonicalSurface& surface) {
          (surface.kind == Kind::torus && surface.major > surface.minor && whole_u && whole_v);
 }
 
+bool is_round_cylinder(const CanonicalSurface& surface) {
+  return surface.kind == Kind::cone && surface.widening == 0 && surface.scale() &&
+         surface.surface->domain().u.width() >= kTwoPi;
+}
+
+// What cylinders about one axis with one radius have in common ends in circles, where one of them ends; it may be one
+// circle.
+std::optional<Contours> same_cylinder(const Pair& pair) {
+  if (!is_round_cylinder(pair.a) || !is_round_cylinder(*pair.b)) return std::nullopt;
+  const Vec3 axis = pair.a.axis(), base = pair.a.origin - pair.middle;
+  const auto heights = [&](const CanonicalSurface& surface) {
+    const Interval v = surface.surface->domain().v;
+    const auto at = [&](double v) {
+      const Vec3 center = glm::inverse(surface.to_local) * Vec3(0, 0, surface.height * v);
+      return glm::dot(axis, surface.origin + center - pair.middle);
+    };
+    return hull(Interval(at(v.lo)), Interval(at(v.hi)));
+  };
+  const Interval of_a = heights(pair.a), of_b = heights(*pair.b);
+  const double size = pair.scale.size + glm::length(pair.middle);
+  for (const double end : {of_a.lo, of_a.hi})
+    for (const double other : {of_b.lo, of_b.hi})
+      if (const double apart = std::abs(end - other); apart > kRounding * size && apart < kShort * size)
+        return std::nullopt;
+  const double from = std::max(of_a.lo, of_b.lo), to = std::min(of_a.hi, of_b.hi);
+  const bool touching = std::abs(to - from) <= kRounding * size;
+  Cutting cutting(pair);
+  const Mat3 around = glm::inverse(pair.a.to_local) * pair.a.radius;
+  const auto add_circle = [&](double height, ContourKind kind) {
+    return cutting.add({Conic::Kind::ellipse, base + (height - glm::dot(axis, base)) * axis, around[0], around[1]},
+                       kind);
+  };
+  if (touching ? !add_circle(from, ContourKind::touching)
+               : from < to && !(add_circle(from, ContourKind::border) && add_circle(to, ContourKind::border)))
+    return std::nullopt;
+  Contours all = cutting.found();
+  all.coincident = from < to && !touching;
+  all.closed_form = true;
+  return all;
+}
+
 std::optional<Contours> closed_form(const Pair& pair) {
   bool coincident = false;
   const std::optional<PlaneIntersection> intersection = intersection_of(pair, coincident);
   if (!intersection) return std::nullopt;
   if (coincident) {
-    // The borders of regions are the search's, but closed surfaces that are the same have none.
-    if (!pair.b || !is_whole(pair.a) || !is_whole(*pair.b)) return std::nullopt;
+    if (!pair.b) return std::nullopt;
+    // Closed surfaces that are the same have no borders; those of other regions are the search's, but of cylinders.
+    if (!is_whole(pair.a) || !is_whole(*pair.b)) return same_cylinder(pair);
     Contours all;
     all.coincident = all.closed_form = true;
     return all;

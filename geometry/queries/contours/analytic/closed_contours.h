@@ -9,7 +9,8 @@
 //   (geometry/queries/contours/analytic/torus_silhouette.h); tori with planes across or through the axis and those that
 //   touch them twice (Villarceau), with planes, spheres, cylinders, cones and tori about the same axis, with the
 //   spheres that fill their tube; spheres with cylinders that touch them from within, tori with
-//   planes along the axis that touch the inner equator (geometry/queries/contours/analytic/hippopede.h).
+//   planes along the axis that touch the inner equator (geometry/queries/contours/analytic/hippopede.h); what cylinders
+//   of revolution about one axis with one radius have in common.
 //
 // Nothing is returned for other pairs, and wherever rounding or the tolerance would have to decide: nearly tangent,
 // nearly coincident, borders that touch, singular points at ends. There the search of

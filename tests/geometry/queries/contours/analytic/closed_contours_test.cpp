@@ -489,6 +489,46 @@ TEST(ClosedContours, SaysThatClosedSurfacesAreTheSame) {
   EXPECT_TRUE(found.branches.empty());
 }
 
+// Pipes of one radius about one axis, one upright and one upside down, both around the seam of the other: what they
+// have in common ends in circles where one of them ends.
+TEST(ClosedContours, CommonPartOfCylinders) {
+  const auto pipe = [](double from, double to) {
+    return std::make_shared<CylinderSurface>(at({1, 2, from}), 2, to - from);
+  };
+  const auto turned = [](double from, double to) {
+    return std::make_shared<CylinderSurface>(Frame{{1, 2, to}, {0, 1, 0}, {1, 0, 0}, {0, 0, -1}}, 2, to - from);
+  };
+  const auto check = [](const SurfacePtr& a, const SurfacePtr& b, ContourKind kind,
+                        const std::vector<double>& heights) {
+    const Contours found = intersect(a, b);
+    EXPECT_TRUE(found.closed_form && found.complete);
+    EXPECT_EQ(found.coincident, kind == ContourKind::border);
+    ASSERT_EQ(found.branches.size(), heights.size());
+    for (size_t k = 0; k < heights.size(); ++k) {
+      const Contour& ring = found.branches[k];
+      EXPECT_EQ(ring.kind, kind);
+      EXPECT_TRUE(ring.closed);
+      EXPECT_NEAR(contour_length(ring).value, 4 * kPi, 1e-12);
+      const Interval t = ring.curve->domain();
+      for (const double part : {0.0, 0.2, 0.5, 0.9, 1.0}) {
+        const Vec3 p = ring.curve->point(t.lo + part * t.width());
+        EXPECT_NEAR(p.z, heights[k], 1e-13);
+        EXPECT_NEAR(std::hypot(p.x - 1, p.y - 2), 2, 1e-13);
+        for (size_t i = 0; i < 2; ++i) {
+          const Vec3 uv = ring.images[i]->point(t.lo + part * t.width());
+          EXPECT_LT(glm::length((i == 0 ? a : b)->point(uv.x, uv.y) - p), 1e-13);
+        }
+      }
+    }
+  };
+  check(pipe(0, 10), pipe(5, 25), ContourKind::border, {5, 10});
+  check(pipe(0, 10), turned(3, 7), ContourKind::border, {3, 7});
+  check(pipe(0, 10), turned(0, 10), ContourKind::border, {0, 10});
+  check(pipe(0, 10), pipe(10, 12), ContourKind::touching, {10});
+  check(pipe(0, 10), turned(-3, 0), ContourKind::touching, {0});
+  check(pipe(0, 10), pipe(11, 12), ContourKind::crossing, {});
+}
+
 // Where rounding or the tolerance would decide, the search has its say.
 TEST(ClosedContours, LeaveWhatIsNearlySpecial) {
   const auto left = [](const SurfacePtr& a, const SurfacePtr& b) {
@@ -508,6 +548,7 @@ TEST(ClosedContours, LeaveWhatIsNearlySpecial) {
   // Nearly coincident.
   EXPECT_TRUE(left(ball, std::make_shared<SphereSurface>(at({0, 0, 1e-10}), 1)));
   EXPECT_TRUE(left(tube(Frame(), 1), tube(Frame(), 1 + 1e-10)));
+  EXPECT_TRUE(left(tube(Frame(), 1), tube(at({0, 0, 1e-10}), 1)));
   EXPECT_TRUE(left(plate(Frame(), 1), plate(frame_about({0, 0, 0}, glm::normalize(Vec3(1e-10, 0, 1))), 1)));
   EXPECT_TRUE(left(plate(Frame(), 1), plate(at({0.5, 0, 0}), 1)));
   // Nearly touching along a line.
