@@ -197,7 +197,7 @@ TEST(Panels, ViewsOfOnePage) {
                         "layout: { rows: [[front], [top, empty]], scale: 1/2, gap: 12 mm }\n"
                         "outputs: [a.pdf, { file: top.svg, panel: top, width: 80 mm }]\n");
   ASSERT_EQ(m.panels.size(), 2u);
-  const Panel &front = m.panels[0], &top = m.panels[1];
+  const Panel &top = m.panels[0], &front = m.panels[1];  // in the order of the scene
   EXPECT_EQ(front.name, "front");
   ASSERT_TRUE(front.objects);
   EXPECT_NE(front.objects->at(0).material, nullptr);
