@@ -217,7 +217,7 @@ TEST(Panels, ViewsOfOnePage) {
 
 TEST(Panels, WithoutALayoutTheyStandInARow) {
   const Model m = model(kGeometry + kPanels);
-  EXPECT_EQ(m.layout.rows, (std::vector<std::vector<std::string>>{{"front", "top"}}));
+  EXPECT_EQ(m.layout.rows, (std::vector<std::vector<std::string>>{{"top", "front"}}));
   EXPECT_EQ(m.layout.scale, 0);
 }
 
