@@ -90,6 +90,8 @@ bool is_plane(const Entity& entity) {
 // Embree squares lengths in single precision, which ends at the square of 1.8e19: beyond, nothing is hit. Some is left
 // for what cameras and transforms add.
 constexpr double kMaxCoordinate = 1e15;
+// Curvatures have the sixth powers of lengths, and double precision ends at 1e-308.
+constexpr double kMinCoordinate = 1e-50;
 // Of places of groups: what they hold is met in their own coordinates.
 constexpr double kMaxOfGroups = 1e19;
 
@@ -273,9 +275,13 @@ Objects objects_of(const Fields& fields) {
 
 void check_size(const Object& object) {
   const double most = std::holds_alternative<GroupPtr>(object.shape) ? kMaxOfGroups : kMaxCoordinate;
-  if (reach(object.shape, object.transform) > most)
+  const double far = reach(object.shape, object.transform);
+  if (far > most)
     throw FieldError("shape", fmt::format("'{}' has coordinates beyond {:g}", object.name, most),
                      "measure in a larger unit");
+  if (far > 0 && far < kMinCoordinate)
+    throw FieldError("shape", fmt::format("'{}' has no coordinate above {:g}", object.name, kMinCoordinate),
+                     "measure in a smaller unit");
 }
 
 TypeDeclaration object_type() {

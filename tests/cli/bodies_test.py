@@ -204,6 +204,7 @@ geometry:
                      "the profile is open: it begins at (0, 0, 0) and ends at (1, 1, 0)", "thickness")
         self.refused("type: extrusion_body, of: { type: polyline, closed: true, points: [[0, 0], [2, 2], [2, 0], [0, 1]] }, along: z",
                      "the profile meets itself at (0.666667, 0.666667, 0)")
+        self.refused("type: extrusion_body, of: { type: named_curve, preset: lemniscate_of_bernoulli }, along: z", "the profile meets itself at")
         self.refused("type: extrusion_body, of: { type: circle, radius: 1 }, along: x", "within its own plane")
         self.refused("type: extrusion_body, of: { type: circle, radius: 1 }, along: [0, 0, 0]", "must not be zero")
         self.refused("type: extrusion_body, of: [{ type: circle, radius: 1 }, { type: circle, radius: 1, center: [1.5, 0] }], along: z",
@@ -213,18 +214,23 @@ geometry:
         self.refused("type: extrusion_body, of: { type: rectangle, size: [1, 1] }, along: z, draft: 40", "profile")
         self.refused("type: extrusion_body, of: { type: circle, radius: 1 }, along: z, draft: 50", "the arc of radius 1")
         self.refused("type: revolution_body, of: { type: circle, radius: 1, center: [0.5, 0, 0], normal: y }", "the profile crosses the axis")
+        self.refused("type: revolution_body, axis: z, of: { type: circle, radius: 1, frame: { origin: [0.9995, 0, 0], z: y, x: [1, 0, 0.3] } }",
+                     "is 0.0005 beyond it")
         self.refused("type: revolution_body, of: { type: circle, radius: 1, center: [3, 0, 0] }", "does not lie in the plane")
         self.refused("type: revolution_body, of: { type: circle, radius: 1, center: [1, 0, 0], normal: y }", "touches the axis")
         self.refused("type: translation_body, of: { type: circle, radius: 1 }, along: { type: bezier_curve, points: [[0, 0, 0], [0, 0, 3], "
                      "[2, 0, 3], [2, 0, 1]] }", "the curve turns back")
         self.refused("type: sweep_body, of: { type: circle, radius: 1 }, path: { type: circle, radius: 0.8 }", "would run through itself",
                      "0.8 away")
+        # The profile is told where it is farthest, not at its nearest sample.
+        self.refused("type: pipe, path: { type: circle, radius: 1 }, radius: 1.002", "the profile reaches 1.002", "1 away")
+        self.refused("type: pipe, path: { type: circle, radius: 1 }, radius: 1.5", "the profile reaches 1.5")
         self.refused("type: sweep_body, of: { type: circle, radius: 0.1 }, path: { type: polyline, points: [[0, 0, 0], [0, 0, 1], [1, 0, 1]] }",
                      "the path has a corner at (0, 0, 1), t = 1")
         self.refused("type: pipe, radius: 0, path: { type: segment, from: [0, 0, 0], to: [0, 0, 1] }", "radius")
         self.refused("type: pipe, radius: 1, wall: 1, path: { type: segment, from: [0, 0, 0], to: [0, 0, 1] }", "nothing is left open")
         self.refused("type: loft_body, of: [{ type: circle, radius: 1 }, { type: rectangle, size: [1, 1], center: [0, 0, 1] }]",
-                     "section 0 has 1 segments and section 1 has 4")
+                     "section 0 has 1 segment and section 1 has 4")
         self.refused("type: thickened_sheet, of: { type: cylinder_surface, radius: 1, height: 1 }, thickness: -1.5",
                      "curved more than that", "radius of curvature on this side is 1")
         self.refused("type: hollow_body, of: { type: box, size: [1, 1, 1] }, voids: { type: box, size: [1, 1, 1], corner: [0.5, 0, 0] }",

@@ -47,7 +47,7 @@ class LocalBodies(ProgramTest):
 
     def test_faces_that_are_no_neighbours(self):
         turned = f"{{ type: revolution_body, of: {MERIDIAN}, axis: z }}"
-        self.refused(f"type: offset_body, of: {turned}, distance: -0.6", "run into each other", "up to 0.5 works")
+        self.refused(f"type: offset_body, of: {turned}, distance: -0.6", "run into each other", "up to 0.499 works")
         self.refused("type: moved_faces, of: { type: shell_body, of: block, thickness: 0.5 }, faces: inner.block.x_max, distance: -2", "run into each other")
         self.refused(f"type: moved_faces, of: {TRAY}, faces: block.z_min, distance: -0.8", "block.z_min and inner.block.x_min run into each other")
         self.refused(f"type: chamfer_body, of: {TRAY}, chamfers: {{ edges: {{ between: [block.z_min, block.x_min] }}, lengths: 1.5 }}",

@@ -174,7 +174,9 @@ std::vector<double> parse_numbers(const std::string& text, size_t count, const s
     if (!std::isfinite(numbers.back())) throw UsageError(fmt::format("{}: '{}' is no finite number", option, part));
   }
   if (count > 0 && numbers.size() != count)
-    throw UsageError(fmt::format("{} takes {} numbers with commas between, found {}", option, count, numbers.size()));
+    throw UsageError(
+        count == 1 ? fmt::format("{} takes one number, found {}", option, numbers.size())
+                   : fmt::format("{} takes {} numbers with commas between, found {}", option, count, numbers.size()));
   return numbers;
 }
 

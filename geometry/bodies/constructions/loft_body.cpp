@@ -61,10 +61,10 @@ class Lofting {
     for (const Profile& section : sections_) segments_.push_back(counterclockwise(section));
     for (size_t i = 1; i < segments_.size(); ++i)
       if (segments_[i].size() != segments_[0].size())
-        throw FieldError(
-            "of",
-            fmt::format("section 0 has {} segments and section {} has {}", segments_[0].size(), i, segments_[i].size()),
-            "as many corners in each section");
+        throw FieldError("of",
+                         fmt::format("section 0 has {} segment{} and section {} has {}", segments_[0].size(),
+                                     segments_[0].size() == 1 ? "" : "s", i, segments_[i].size()),
+                         "as many corners in each section");
   }
 
   Body build() {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "geometry/bodies/constructions/farthest_point.h"
 #include "geometry/bodies/constructions/profile_offset.h"
 #include "geometry/bodies/constructions/swept_body.h"
 #include "geometry/curves/analytic/circle.h"
@@ -77,7 +78,6 @@ Body translated(const Fields& f) {
 // The profile lies nowhere beyond the center of curvature: there the body would run through itself.
 void check_curvature(const SectionMotion& motion, const Profile& profile, const char* field) {
   const Curve& path = *motion.path();
-  const std::vector<Vec3> points = profile.samples();
   for (int k = 0; k <= kTried; ++k) {
     const double v = at_share(path.domain(), k);
     const CurveJet g = path.evaluate(v, 2);
@@ -85,8 +85,11 @@ void check_curvature(const SectionMotion& motion, const Profile& profile, const 
     const Vec3 tangent = g.d[1] / speed;
     const Vec3 curvature = (g.d[2] - glm::dot(g.d[2], tangent) * tangent) / (speed * speed);
     const Affine placement = motion.placement(v);
-    for (const Vec3& p : points) {
-      const double towards = glm::dot(placement.direction(p), curvature);
+    const Vec3 in_profile(glm::dot(placement.direction({1, 0, 0}), curvature),
+                          glm::dot(placement.direction({0, 1, 0}), curvature),
+                          glm::dot(placement.direction({0, 0, 1}), curvature));
+    for (const CurvePtr& segment : profile.loops.front().segments) {
+      const double towards = glm::dot(farthest_point(*segment, in_profile), in_profile);
       if (towards >= 1)
         throw FieldError(
             field,

@@ -140,6 +140,20 @@ std::string name_of(size_t k, size_t count) {
   return count == 1 ? "the profile" : fmt::format("curve {} of the profile", k);
 }
 
+void check_simple(const Curve& curve, const std::string& name, const char* field) {
+  const CurveSelfIntersections found = self_intersections(curve);
+  if (!found.points.empty())
+    throw FieldError(field,
+                     fmt::format("{} meets itself at {}, t = {:.6g} and {:.6g}", name, text_of(found.points[0].point),
+                                 found.points[0].s, found.points[0].t),
+                     "a profile does not cross or touch itself");
+  if (!found.common.empty())
+    throw FieldError(
+        field,
+        fmt::format("{} runs twice along the same way, from {}", name, text_of(curve.point(found.common[0].s.lo))),
+        "a profile does not cross or touch itself");
+}
+
 Outline outline_of(const CurvePtr& curve, size_t source, const std::string& name, const char* field) {
   if (!(curve->domain().width() < kInfinity)) throw FieldError(field, name + " is unbounded", "give it a domain");
   if (!curve->is_closed()) {
@@ -152,23 +166,11 @@ Outline outline_of(const CurvePtr& curve, size_t source, const std::string& name
   Outline outline{curve, samples_of(*curve), {}, source};
   outline.area = area_of(outline.polygon);
   const double size = bounds(*curve).diameter();
-  if (!(glm::length(outline.area) > 1e-12 * size * size))
+  if (!(glm::length(outline.area) > 1e-12 * size * size)) {
+    check_simple(*curve, name, field);  // the areas of the loops of an eight cancel out
     throw FieldError(field, name + " encloses no area", "a closed plane curve");
+  }
   return outline;
-}
-
-void check_simple(const Outline& outline, const std::string& name, const char* field) {
-  const CurveSelfIntersections found = self_intersections(*outline.curve);
-  if (!found.points.empty())
-    throw FieldError(field,
-                     fmt::format("{} meets itself at {}, t = {:.6g} and {:.6g}", name, text_of(found.points[0].point),
-                                 found.points[0].s, found.points[0].t),
-                     "a profile does not cross or touch itself");
-  if (!found.common.empty())
-    throw FieldError(field,
-                     fmt::format("{} runs twice along the same way, from {}", name,
-                                 text_of(outline.curve->point(found.common[0].s.lo))),
-                     "a profile does not cross or touch itself");
 }
 
 void check_plane(const Outline& outline, const Frame& plane, double size, const std::string& name, const char* field) {
@@ -240,7 +242,7 @@ Profile profile_of(const std::vector<CurvePtr>& curves, const char* field) {
   profile.plane = frame_about(outlines[0].polygon[0], glm::normalize(outlines[0].area));
   for (size_t k = 0; k < count; ++k) {
     check_plane(outlines[k], profile.plane, box.diameter(), name_of(k, count), field);
-    check_simple(outlines[k], name_of(k, count), field);
+    check_simple(*outlines[k].curve, name_of(k, count), field);
   }
   check_apart(outlines, field);
   const auto flat = [&](const std::vector<Vec3>& polygon) {

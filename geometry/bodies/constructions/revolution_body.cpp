@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "geometry/bodies/constructions/farthest_point.h"
 #include "geometry/bodies/constructions/profile_offset.h"
 #include "geometry/bodies/constructions/swept_body.h"
 #include "geometry/curves/analytic/circle.h"
@@ -87,11 +88,12 @@ class Revolving {
         std::abs(glm::dot(profile_.plane.origin - axis_.through, z)) > 1e-9 * size_)
       throw FieldError("axis", "the axis does not lie in the plane of the profile",
                        "an axis through that plane's points");
-    for (const Vec3& p : profile_.samples()) {
-      const double x = glm::dot(p - axis_.through, radial);
-      if (x < lo) lo = x, worst_lo = p;
-      if (x > hi) hi = x, worst_hi = p;
-    }
+    for (const CurvePtr& segment : profile_.loops.front().segments)
+      for (const Vec3& p : {farthest_point(*segment, radial), farthest_point(*segment, -radial)}) {
+        const double x = glm::dot(p - axis_.through, radial);
+        if (x < lo) lo = x, worst_lo = p;
+        if (x > hi) hi = x, worst_hi = p;
+      }
     if (hi > 1e-9 * size_ && lo < -1e-9 * size_) {
       const Vec3 p = hi > -lo ? worst_lo : worst_hi;
       throw FieldError("axis",

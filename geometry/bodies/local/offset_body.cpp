@@ -96,7 +96,10 @@ FaceReplacement offset_of_body(const Body& body, const std::vector<double>& dist
     for (const double d : distances) distance = std::max(distance, std::abs(d));
     const double share = largest_share(body, distances, field);
     if (!(share > 0)) throw;
-    throw FieldError(field, error.what(), fmt::format("{}: up to {:.3g} works", hint, share * distance));
+    // Rounded down: the limit itself is what fails.
+    const double works = share * distance, digit = std::pow(10, std::floor(std::log10(works)) - 2);
+    throw FieldError(field, error.what(),
+                     fmt::format("{}: up to {:.3g} works", hint, std::floor(works / digit) * digit));
   }
 }
 

@@ -104,6 +104,15 @@ TEST(CurveWithItself, CuspsAreNamed) {
   intersections_of(curve({"t^2", "t^3", "t^4"}, {-1, 1}), 1, SelfIntersectionKind::cusp);
   intersections_of(curve({"t-sin(t)", "1-cos(t)", "0"}, {-7, 14}), 4, SelfIntersectionKind::cusp);
   intersections_of(curve({"cos(t)^3", "sin(t)^3", "0"}, {0, kTurn}, true), 4, SelfIntersectionKind::cusp);
+  // Beside a cusp the arms of a five-pointed hypocycloid are within the tolerance of each other.
+  const FormulaCurve hypocycloid =
+      curve({"3*cos(0.4*t)+2*cos(0.6*t)", "3*sin(0.4*t)-2*sin(0.6*t)", "0"}, {0, 5 * kTurn}, true);
+  const CurveSelfIntersections found = self_intersections(hypocycloid);
+  check_meets(hypocycloid, found);
+  EXPECT_EQ(found.points.size(), 10u);
+  EXPECT_EQ(std::count_if(found.points.begin(), found.points.end(),
+                          [](const CurveSelfIntersection& one) { return one.kind == SelfIntersectionKind::cusp; }),
+            5);
   // On its way back the parabola leaves the way there: no part is common.
   intersections_of(curve({"t^2", "t^4+t^5/2", "0"}, {-1, 1}), 1, SelfIntersectionKind::cusp);
 }
