@@ -258,7 +258,7 @@ geometry:
             out, errors = self.run_program("draw", "large.yaml", "--set", name, "-o", "large.svg", code=SCENE_ERROR)
             self.assertIn(f"large.yaml:{column}", errors)
             self.assertIn("has coordinates beyond 1e+15", errors)
-        for name, column in (("r=1e-80", "4:3"), ("b=1e-200", "5:3")):
+        for name, column in (("r=1e-80", "4:3"), ("b=1e-60", "5:3")):
             errors = self.run_program("check", "large.yaml", "--set", name, code=SCENE_ERROR)[1]
             self.assertIn(f"large.yaml:{column}", errors)
             self.assertIn("has no coordinate above 1e-50", errors)
