@@ -165,22 +165,22 @@ bool crosses_right(Part part, bool begins_below, double u, double v) {
 constexpr int kDeepestCut = 40;
 // Nor are arcs cut that are no higher than this share of their loop: of an arc along a parameter line the slope may be
 // nothing but rounding.
-constexpr double kLevel = 1e-13;
+constexpr double kFlat = 1e-13;
 // Nor when so many halvings in turn left the bounds as high as they were, as next to a singular point of a contour.
-constexpr int kVainCuts = 6;
-constexpr double kAsHigh = 0.99;
+constexpr int kUnchangedHalvings = 6;
+constexpr double kSameHeight = 0.99;
 
 struct CutState {
-  double level = 0, height = kInfinity;  // of its loop, what is none; of the part that was halved
-  int depth = 0, vain = 0;
+  double flat = 0, height = kInfinity;  // of its loop, what is none; of the part that was halved
+  int depth = 0, unchanged = 0;
 };
 
 template <class Part, class Add>
 void cut_to_monotone(const Part& part, CutState state, Add&& add) {
   if (part.is_monotone() || state.depth == kDeepestCut) return add(part);
   const double height = part.box().v.width();
-  state.vain = height > kAsHigh * state.height ? state.vain + 1 : 0;
-  if (height <= state.level || state.vain == kVainCuts) return add(part);
+  state.unchanged = height > kSameHeight * state.height ? state.unchanged + 1 : 0;
+  if (height <= state.flat || state.unchanged == kUnchangedHalvings) return add(part);
   state.height = height, ++state.depth;
   Part first, second;
   part.halve(first, second);
@@ -208,17 +208,17 @@ class TrimRegion::Building {
       const Box3 box = bounds(*part.curve);
       heights = hull(heights, {box.lo.y, box.hi.y});
     }
-    const double level = heights.width() < kInfinity ? kLevel * heights.width() : 0;
+    const double flat = heights.width() < kInfinity ? kFlat * heights.width() : 0;
     for (const Part& part : loop) {
       const size_t begin = arcs_.size();
       for (const CurvePiece& piece : part.curve->pieces()) {
         if (piece.is_rational()) {
-          cut_to_monotone(BezierPart(Points(piece.points)), {level}, [&](const BezierPart& cut) {
+          cut_to_monotone(BezierPart(Points(piece.points)), {flat}, [&](const BezierPart& cut) {
             const Points points = cut.is_monotone() ? cut.points() : cut.chord().points();
             add({{points.begin(), points.end()}, nullptr}, cut.box(), cut.begin().y, cut.end().y);
           });
         } else {
-          cut_to_monotone(CurvePart(part.curve.get(), piece.domain), {level}, [&](const CurvePart& cut) {
+          cut_to_monotone(CurvePart(part.curve.get(), piece.domain), {flat}, [&](const CurvePart& cut) {
             add({{}, part.curve, cut.t()}, cut.box(), cut.begin().y, cut.end().y);
           });
         }

@@ -145,7 +145,8 @@ class SelfIntersections {
           return one.kind != SelfIntersectionKind::cusp && other.kind != SelfIntersectionKind::cusp &&
                  holds_between(curve_, one.s, other.s, [&](double s) { return !others_at(s, by).empty(); });
         });
-    std::erase_if(result_.points, [&](const CurveSelfIntersection& one) { return is_beside_cusp(one); });
+    std::erase_if(result_.points,
+                  [&, known = result_.points](const CurveSelfIntersection& one) { return is_beside_cusp(one, known); });
     std::sort(result_.points.begin(), result_.points.end(),
               [](const CurveSelfIntersection& x, const CurveSelfIntersection& y) {
                 return x.s != y.s ? x.s < y.s : x.t < y.t;
@@ -346,9 +347,9 @@ class SelfIntersections {
   }
 
   // Whether a cusp lies between both parameters, from which both arms stay within the tolerance of each other.
-  bool is_beside_cusp(const CurveSelfIntersection& one) const {
+  bool is_beside_cusp(const CurveSelfIntersection& one, const std::vector<CurveSelfIntersection>& known) const {
     if (one.kind == SelfIntersectionKind::cusp) return false;
-    return std::any_of(result_.points.begin(), result_.points.end(), [&](const CurveSelfIntersection& cusp) {
+    return std::any_of(known.begin(), known.end(), [&](const CurveSelfIntersection& cusp) {
       if (cusp.kind != SelfIntersectionKind::cusp) return false;
       const auto from_cusp = [&](double t) {
         const double by = t - cusp.s;

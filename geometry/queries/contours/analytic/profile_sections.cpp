@@ -84,7 +84,7 @@ Frame frame_of(const Axis& axis, const Affine& map) {
 }
 
 // From the axis towards a profile that is plane with it and does not meet it.
-std::optional<Vec3> way_to_profile(const Curve& curve, const Frame& frame, double size) {
+std::optional<Vec3> direction_to_profile(const Curve& curve, const Frame& frame, double size) {
   const auto form = curve.as_nurbs();
   if (!form) return std::nullopt;
   Vec3 out(0);
@@ -227,7 +227,7 @@ class Section {
 
   // The profile is plane with the axis: turned into the plane it is the section, on both sides of the axis.
   bool turned_profiles(const CurvePtr& curve, const Frame& frame, const Rectangle& domain) {
-    const auto x = way_to_profile(*curve, frame, size_);
+    const auto x = direction_to_profile(*curve, frame, size_);
     if (!x) return false;
     const Vec3 side = glm::cross(frame.z, *x);
     const Vec3 target = glm::normalize(glm::cross(plane_.normal, frame.z));
@@ -317,9 +317,9 @@ class Section {
 };
 
 // Where the profile meets itself as it is seen along the extrusion, or in its plane.
-class SelfMeeting {
+class ProfileSelfIntersection {
  public:
-  SelfMeeting(const Curve& flat, double tolerance) : crossings_(self_intersections(flat, tolerance)) {
+  ProfileSelfIntersection(const Curve& flat, double tolerance) : crossings_(self_intersections(flat, tolerance)) {
     found.complete = crossings_.common.empty();
   }
 
@@ -400,18 +400,18 @@ std::optional<Contours> profile_self_intersection(const SurfacePtr& surface, dou
     const CurvePtr curve = transformed(extrusion->curve(), moved.map);
     const Vec3 d = moved.map.direction(extrusion->along());
     const Frame frame = frame_about(Vec3(0), glm::normalize(d));
-    SelfMeeting meeting(AffineImage(curve, u, functionals(frame.x, frame.y, Vec3(0))), tolerance);
-    if (meeting.of(*extrusion, *curve, d)) return std::move(meeting.found);
+    ProfileSelfIntersection lines(AffineImage(curve, u, functionals(frame.x, frame.y, Vec3(0))), tolerance);
+    if (lines.of(*extrusion, *curve, d)) return std::move(lines.found);
   } else if (const auto* revolution = dynamic_cast<const RevolutionSurface*>(moved.original)) {
     if (!keeps_angles(moved.map.linear)) return std::nullopt;
     const CurvePtr curve = transformed(revolution->curve(), moved.map);
     const Frame frame = frame_of(revolution->axis(), moved.map);
     const double size = bounds(*surface).diameter();
-    const auto out = way_to_profile(*curve, frame, size);
+    const auto out = direction_to_profile(*curve, frame, size);
     if (!out) return std::nullopt;
     const Vec3 offset(-glm::dot(*out, frame.origin), -glm::dot(frame.z, frame.origin), 0);
-    SelfMeeting meeting(AffineImage(curve, u, functionals(*out, frame.z, offset)), tolerance);
-    if (meeting.of(*revolution, *curve, frame, size)) return std::move(meeting.found);
+    ProfileSelfIntersection lines(AffineImage(curve, u, functionals(*out, frame.z, offset)), tolerance);
+    if (lines.of(*revolution, *curve, frame, size)) return std::move(lines.found);
   }
   return std::nullopt;
 }
